@@ -12,7 +12,7 @@ fi
 packages=(
   g++ cmake ninja-build pkg-config git ca-certificates  # to build
   libeigen3-dev libfmt-dev libtoml11-dev libcli11-dev   # C++ libraries
-  nlohmann-json3-dev libfccp-dev libcereal-dev
+  nlohmann-json3-dev libcereal-dev
   libhdf5-dev coinor-libipopt-dev libmujoco-dev
   libegl-dev libgl1-mesa-dri libpng-dev                 # pictures, without a display
   libqhull-dev libgl-dev libopengl-dev                  # named by MuJoCo's CMake file, but not by its package
@@ -23,7 +23,7 @@ packages=(
 )
 if [[ -z ${HAGFISH_RUN_ONLY-} ]]; then
   packages+=(
-    python3-pytest python3-xarray python3-h5netcdf      # tests, and logs in Python
+    python3-pytest python3-xarray python3-h5netcdf mypy # tests, and logs in Python
     ffmpeg                                              # films
     parallel                                            # jobs of studies that are no grids
   )

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double terminal_interval = 0.2;  // between redraws, s
 constexpr double file_interval = 5;        // between lines where output is no terminal, s
+constexpr double first_estimate = 1;       // before this the pace is that of starting, s
 // What a run still does after the head is free: the last loop slips off. Only the estimate of the
 // time left depends on it, s.
 constexpr double release_estimate = 1;
@@ -98,12 +99,12 @@ void Progress::show(const StepRecord& record) {
     return;
   }
   show_change(record);
-  if (wall < next_ || record.time == 0) {  // there is no pace yet
+  if (wall < std::max(next_, first_estimate) || record.time == 0) {
     return;
   }
   next_ = wall + (terminal_ ? terminal_interval : file_interval);
-  const double speed = wall > 0 ? record.time / wall : 0;
-  const double left = speed > 0 ? std::max(0.0, estimated_end(record) - record.time) / speed : 0;
+  const double speed = record.time / wall;
+  const double left = std::max(0.0, estimated_end(record) - record.time) / speed;
   say("{}{:<8} t = {:6.2f} s  {:5.2f} x real time  {:3.0f} s left  knot {}  {}{}",
       terminal_ ? "\r" : "", phase_name(record.controller.phase), record.time, speed, left,
       knot_name(record.controller.knot.type), span_text(record.controller),

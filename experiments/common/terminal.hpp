@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <utility>
 
@@ -21,9 +22,11 @@ void open_standard_streams();
 /// Whether all that was printed to standard output arrived there.
 bool standard_output_arrived();
 
-/// Has signals that would end the process (SIGINT, SIGTERM, SIGHUP) noted instead, for
-/// `interrupted` to tell, a second one of a kind ends it, and failed writes (SIGPIPE, SIGXFSZ)
-/// reported as errors.
+/// Signals that ask a process to end. Schedulers send the last three before a job's time is up.
+inline constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU};
+
+/// Has ending_signals noted instead, for `interrupted` to tell, a second one of a kind ends the
+/// process, and failed writes (SIGPIPE, SIGXFSZ) reported as errors.
 void note_signals();
 bool interrupted();
 

@@ -11,11 +11,11 @@
 #include <limits>
 #include <sstream>
 
+#include "core/input/csv/delimited_text.hpp"
 #include "core/input/files/regular_file.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/log/hdf5/hdf5_error.hpp"
-#include "experiments/film/delimited_text.hpp"
 
 namespace hagfish {
 namespace {
@@ -26,22 +26,12 @@ constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 /// Of a film, s or a unit of length: what is fitted squares it.
 constexpr double largest_number = 1e9;
 
-/// What Windows programs write before UTF-8, and before UTF-16 with the low byte first.
-constexpr std::string_view utf8_mark = "\xEF\xBB\xBF", utf16_mark = "\xFF\xFE";
-
 std::string whole_text(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
   if (!stream) throw FileError(file + ": cannot be read");
-  std::string whole = text.str();
-  if (whole.starts_with(utf8_mark)) return whole.substr(utf8_mark.size());
-  if (!whole.starts_with(utf16_mark)) return whole;
-  std::string narrow;  // letters beyond ASCII are in names alone
-  for (std::size_t k = utf16_mark.size(); k + 1 < whole.size(); k += 2) {
-    narrow += whole[k + 1] == 0 ? whole[k] : '?';
-  }
-  return narrow;
+  return text.str();
 }
 
 std::string lower(std::string_view text) {

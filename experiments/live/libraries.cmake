@@ -2,7 +2,7 @@
 # header of /usr/include is seen.
 set(headers ${CMAKE_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${headers})
-foreach(header eigen3/Eigen fmt toml toml.hpp simde libfccp)
+foreach(header eigen3/Eigen fmt toml toml.hpp simde)
   get_filename_component(name ${header} NAME)
   if(NOT EXISTS /usr/include/${header})
     message(FATAL_ERROR "/usr/include/${header} is missing: HAGFISH_WEB=1 bash experiments/setup.sh")
@@ -27,4 +27,3 @@ target_compile_definitions(Eigen3::Eigen INTERFACE __SSE__ __SSE2__ EIGEN_MAX_ST
 # For Eigen a GCC 6.3 or later, which needs no assembler in minima, but not GCC 6, for which it has
 # some elsewhere: it reads 10 times the first number plus the second in the one place only.
 target_compile_options(Eigen3::Eigen INTERFACE -fgnuc-version=5.13 -Wno-pass-failed)
-set(FCCP_INCLUDE_DIR ${headers})

@@ -311,9 +311,9 @@ class Page {
   typed(field, input) {
     input.dataset.typed = "yes";
     let value = literal(input.value);
-    if (field.list && !value.startsWith('"')) { // the whole list by one factor
-      const before = this.values[field.key], factor = Number(value) / largestOf(before);
-      value = `[${before.slice(1, -1).split(",").map((x) => literal(String(Number(x) * factor))).join(", ")}]`;
+    if (field.list && !value.startsWith('"')) { // the whole list by one factor; of nothing but 0 the same everywhere
+      const before = this.values[field.key], largest = largestOf(before);
+      value = `[${before.slice(1, -1).split(",").map((x) => literal(String(largest > 0 ? Number(x) * (Number(value) / largest) : Number(value)))).join(", ")}]`;
     }
     this.set((field.sets || [field.key]).map((key) => [key, value]), field.again);
   }

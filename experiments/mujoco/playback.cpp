@@ -20,9 +20,9 @@ namespace {
 constexpr std::array<double, 5> intervals = {0.04, 0.1, 0.2, 0.5, 1.0};
 
 /// The sliding phase of a log, frame by frame.
-struct Slide {
+struct LoggedSlide {
   /// Throws FileError where the knot does not slide for two frames, or the log has no means.
-  explicit Slide(const LogContents& log);
+  explicit LoggedSlide(const LogContents& log);
   State state(Eigen::Index frame) const { return {q.row(frame), qdot.row(frame)}; }
   /// Stretches of time between two frames.
   Eigen::Index gaps() const { return q.rows() - 1; }
@@ -37,7 +37,7 @@ struct Slide {
   double step = 0;                       ///< h, s
 };
 
-Slide::Slide(const LogContents& log) {
+LoggedSlide::LoggedSlide(const LogContents& log) {
   require_own_steps(log.h5);
   const auto slides = [](std::int64_t phase) { return phase == static_cast<int>(Phase::slide); };
   const auto first = std::find_if(log.phase.begin(), log.phase.end(), slides);
@@ -63,7 +63,7 @@ Slide::Slide(const LogContents& log) {
   step = log.resolved.scene.time.step;
 }
 
-Eigen::Index Slide::frames_in(double interval) const {
+Eigen::Index LoggedSlide::frames_in(double interval) const {
   const double frame_interval = static_cast<double>(steps) * step;
   const double frames = interval / frame_interval;
   const double whole = std::round(frames);
@@ -94,7 +94,7 @@ Seen look(const Model& model, const Scene& scene, const State& state) {
 /// driven through a slide.
 class Player {
  public:
-  Player(const LogContents& log, const Slide& slide)
+  Player(const LogContents& log, const LoggedSlide& slide)
       : model_(log.model),
         scene_(log.resolved.scene),
         slide_(slide),
@@ -127,7 +127,7 @@ class Player {
  private:
   const Model& model_;
   const Scene& scene_;
-  const Slide& slide_;
+  const LoggedSlide& slide_;
   MujocoModel mirror_;
   double capsule_penetration_ = 0;
 };
@@ -142,7 +142,7 @@ struct Playback {
   int blown_up = 0;               ///< stretches
 };
 
-Playback play(const LogContents& log, const Slide& slide, const std::vector<Seen>& logged,
+Playback play(const LogContents& log, const LoggedSlide& slide, const std::vector<Seen>& logged,
               double interval, bool driven) {
   const Scene& scene = log.resolved.scene;
   const Eigen::Index stretch = slide.frames_in(interval);
@@ -212,7 +212,7 @@ void print_row(const Playback& p, bool driven, double interval) {
 }  // namespace
 
 void playback(const LogContents& log, Hdf5Writer& h5) {
-  const Slide slide(log);
+  const LoggedSlide slide(log);
   std::vector<Seen> logged;
   for (Eigen::Index i = 0; i <= slide.gaps(); ++i) {
     logged.push_back(look(log.model, log.resolved.scene, slide.state(i)));

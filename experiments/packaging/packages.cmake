@@ -19,7 +19,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-h5py, python3-matplotlib, l
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-hagfish)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The simulator of knotting hagfish in Python.")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-h5py")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS # hagfish.design runs the program
+  "hagfish (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-h5py")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-xarray, python3-h5netcdf")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libhagfish-dev)

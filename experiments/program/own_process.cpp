@@ -88,7 +88,8 @@ int in_own_process(const std::string& files, const std::function<int()>& work) {
   struct sigaction action {};
   action.sa_sigaction = pass_on;
   action.sa_flags = SA_SIGINFO;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) ::sigaction(signal, &action, nullptr);
+  for (const int signal : ending_signals) ::sigaction(signal, &action, nullptr);
+  ::sigaction(SIGQUIT, &action, nullptr);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   if (!WIFSIGNALED(status)) return WEXITSTATUS(status);

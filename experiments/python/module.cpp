@@ -2,6 +2,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <string>
+
 #include "core/control/laws.hpp"
 #include "core/input/builtin_files.hpp"
 #include "core/input/input_error.hpp"
@@ -14,8 +16,24 @@
 
 namespace py = pybind11;
 
+namespace hagfish {
+namespace {
+
+/// Throws ImportError where NumPy is not one whose structures this pybind11 knows.
+void require_known_numpy() {
+  constexpr int first_for_both = 0x020c0000;  // pybind11 2.12: NumPy 1 and 2
+  const std::string version = py::str(py::module_::import("numpy").attr("__version__"));
+  if (PYBIND11_VERSION_HEX >= first_for_both || version.starts_with("1.")) return;
+  throw py::import_error("hagfish was built for NumPy 1, but this is NumPy " + version +
+                         ": use another NumPy, or build with pybind11 2.12 or newer");
+}
+
+}  // namespace
+}  // namespace hagfish
+
 PYBIND11_MODULE(_core, module) {
   using namespace hagfish;
+  require_known_numpy();
   py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
   py::register_exception<FileError>(module, "FileError", PyExc_OSError);
   // Kept for the life of the interpreter, as pybind11 keeps its own exceptions.
@@ -38,4 +56,5 @@ PYBIND11_MODULE(_core, module) {
   for (const Law* law : laws()) known[py::str(law->name)] = law->description;
   module.attr("laws") = known;
   module.attr("revision") = build_revision();
+  module.attr("__version__") = build_version();
 }

@@ -1,11 +1,15 @@
 #include "experiments/python/python_arguments.hpp"
 
 #include <fmt/format.h>
+#include <pybind11/numpy.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
+#include "core/input/input_error.hpp"
+#include "core/input/input_text.hpp"
 #include "core/scene/phase.hpp"
 #include "experiments/python/gil.hpp"
 
@@ -31,9 +35,33 @@ std::string path_of(const char* name, const py::object& given, const char* wante
   return path;
 }
 
-std::string text_of(const py::handle& value) {
-  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  return py::str(value);
+/// The value of `key` as --set has it: numbers so that the same doubles are read, and text as it
+/// is, but quoted `within` an array.
+std::string setting_text(const std::string& key, py::object value, bool within) {
+  const auto of = [](const char* module, const char* name) -> py::object {
+    return py::module_::import(module).attr(name);
+  };
+  if (py::isinstance<py::array>(value)) value = value[py::tuple()];  // a scalar has no items
+  if (py::isinstance(value, of("os", "PathLike"))) value = of("os", "fspath")(value);
+  if (py::isinstance<py::str>(value)) {
+    return py::str(within ? of("json", "dumps")(value, py::arg("ensure_ascii") = false) : value);
+  }
+  if (py::isinstance(value, py::make_tuple(of("numbers", "Real"), of("numpy", "bool_")))) {
+    const std::string text = py::str(value);
+    return text == "True" ? "true" : text == "False" ? "false" : text;
+  }
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value) ||
+      py::isinstance<py::array>(value)) {
+    std::vector<std::string> items;
+    for (const py::handle item : value) {
+      items.push_back(setting_text(key, py::reinterpret_borrow<py::object>(item), true));
+    }
+    return fmt::format("[{}]", fmt::join(items, ", "));
+  }
+  throw InputError(
+      fmt::format("set: {} = {}: must be a number, true or false, text, or a list, "
+                  "tuple or array of these",
+                  key, shortened(printable(std::string(py::repr(value))))));
 }
 
 double time_of(const py::object& until) {
@@ -95,11 +123,29 @@ PythonRun python_run(const py::object& scene, const py::object& set, const py::o
   return run;
 }
 
+Eigen::VectorXd numbers(const char* name, const py::object& given, Eigen::Index size) {
+  const py::array array = py::module_::import("numpy").attr("asarray")(given);
+  if (std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos) {
+    throw py::type_error(fmt::format("{} must be real numbers, not {} of dtype {}", name,
+                                     Py_TYPE(given.ptr())->tp_name,
+                                     std::string(py::str(array.dtype()))));
+  }
+  if (array.ndim() != 1 || (size >= 0 && array.size() != size)) {
+    throw py::value_error(fmt::format("{} has shape {}, but shape ({},) is wanted", name,
+                                      std::string(py::str(array.attr("shape"))),
+                                      size < 0 ? "n" : std::to_string(size)));
+  }
+  const py::array_t<double, py::array::c_style | py::array::forcecast> doubles(array);
+  return Eigen::VectorXd::Map(doubles.data(), doubles.size());
+}
+
 std::vector<std::string> settings(const py::object& set) {
   if (!py::isinstance<py::dict>(set)) refuse("set", set, "a dict of keys and values");
   std::vector<std::string> list;
   for (const auto& [key, value] : set.cast<py::dict>()) {
-    list.push_back(text_of(key) + "=" + text_of(value));
+    const std::string name = py::str(key);
+    list.push_back(name + "=" +
+                   setting_text(name, py::reinterpret_borrow<py::object>(value), false));
   }
   return list;
 }

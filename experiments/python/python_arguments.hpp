@@ -15,7 +15,13 @@ PythonRun python_run(const pybind11::object& scene, const pybind11::object& set,
                      const pybind11::object& qp, const pybind11::object& law,
                      const pybind11::object& log, bool force);
 
-/// Keys and values, a dict, as --set has them. Throws TypeError.
+/// The numbers of `given`, an array or a sequence of `size` numbers, of any number where that is
+/// -1; `name` stands for them in errors. Throws TypeError for what are no real numbers, and
+/// ValueError for another shape.
+Eigen::VectorXd numbers(const char* name, const pybind11::object& given, Eigen::Index size);
+
+/// Keys and values, a dict, as --set has them. Throws TypeError, and InputError for a value that is
+/// neither a number, text nor a sequence of these.
 std::vector<std::string> settings(const pybind11::object& set);
 
 /// Throws TypeError where `law` is neither None nor callable.

@@ -4,16 +4,14 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include <fmt/format.h>
-
 #include <string>
+
+#include "experiments/python/python_arguments.hpp"
 
 namespace py = pybind11;
 
 namespace hagfish {
 namespace {
-
-using Vector = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 const char* name_of(KnotEnd end) {
   constexpr const char* names[] = {"first", "last", "neither"};
@@ -45,16 +43,8 @@ Eq6Slip slip_called(const std::string& name) {
   return name == "paper" ? Eq6Slip::paper : Eq6Slip::shape;
 }
 
-/// Views hold on to the storage, which therefore stays where it is.
-void set_dofs(Eigen::VectorXd& values, const Vector& given, Eigen::Index nv) {
-  if (given.ndim() != 1 || given.size() != nv) {
-    throw py::value_error(
-        fmt::format("{} numbers, but the animal has {} velocities", given.size(), nv));
-  }
-  values = Eigen::VectorXd::Map(given.data(), given.size());
-}
-
-/// The torques asked for, 0 where there were none.
+/// The torques asked for, 0 where there were none. Views hold on to the storage, so what is
+/// assigned must leave it where it is: to head(nv).
 ActiveTorque& whole(PythonControl& self) {
   ActiveTorque& torque = self.control->torque;
   if (torque.value.size() == 0) torque.value.setZero(self.nv);
@@ -154,7 +144,9 @@ slip of strands that run along themselves at them (controller.eq6_slip).)")
           [](const py::object& self) {
             return view(self, self.cast<PythonControl&>().control->tip.value.data(), {3}, true);
           },
-          [](PythonControl& c, const Eigen::Vector3d& force) { c.control->tip.value = force; },
+          [](PythonControl& c, const py::object& force) {
+            c.control->tip.value = numbers("tip", force, 3);
+          },
           "(3,) force on the last body's centre, dyn, world")
       .def_property(
           "tip_rate", [](const PythonControl& c) { return c.control->tip.rate; },
@@ -164,12 +156,16 @@ slip of strands that run along themselves at them (controller.eq6_slip).)")
                      "list of Command: rows of Eq. 6 at any number of contacts")
       .def_property(
           "torque", [](const py::object& self) { return torque_view(self, &ActiveTorque::value); },
-          [](PythonControl& c, const Vector& v) { set_dofs(whole(c).value, v, c.nv); },
+          [](PythonControl& c, const py::object& v) {
+            whole(c).value.head(c.nv) = numbers("torque", v, c.nv);
+          },
           "(nv,) view: torques at the hinges, 0 at the root's six velocities, dyn cm")
       .def_property(
           "torque_rate",
           [](const py::object& self) { return torque_view(self, &ActiveTorque::rate); },
-          [](PythonControl& c, const Vector& v) { set_dofs(whole(c).rate, v, c.nv); },
+          [](PythonControl& c, const py::object& v) {
+            whole(c).rate.head(c.nv) = numbers("torque_rate", v, c.nv);
+          },
           "(nv,) view: what they lose by the hinges' rates, not negative, dyn cm s")
       .def_property(
           "rest_shape",
@@ -177,12 +173,9 @@ slip of strands that run along themselves at them (controller.eq6_slip).)")
             if (c.control->rest_shape.size() == 0) return std::nullopt;
             return c.control->rest_shape;
           },
-          [](PythonControl& c, const std::optional<Vector>& v) {
-            if (v) {
-              set_dofs(c.control->rest_shape, *v, c.nv);
-            } else {
-              c.control->rest_shape.resize(0);
-            }
+          [](PythonControl& c, const py::object& v) {
+            c.control->rest_shape =
+                v.is_none() ? Eigen::VectorXd() : numbers("rest_shape", v, c.nv);
           },
           "(nv,) copy: angles that muscles pull the hinges to by the scene's [active], rad; None: "
           "they do not")

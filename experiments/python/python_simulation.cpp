@@ -86,7 +86,8 @@ PythonSimulation::PythonSimulation(const PythonRun& run)
       control(record.control, model.nv()),
       slides(model),
       scene_(resolved.scene),
-      law_(run.law) {
+      law_(run.law),
+      qp_(run.qp) {
   hold_views();
   if (!run.log.empty()) {
     log_.emplace(run.log, run.force, log_header(resolved, model, run.qp, run.command), model,
@@ -102,7 +103,8 @@ PythonSimulation::PythonSimulation(const PythonSimulation& other, const py::obje
       control(record.control, model.nv()),
       slides(other.slides),
       scene_(resolved.scene),
-      law_(law.is_none() ? other.law_ : law) {
+      law_(law.is_none() ? other.law_ : law),
+      qp_(other.qp_) {
   if (!set.empty()) change_scene(model, other.resolved.scene, resolved.scene, sim);
   if (!law.is_none()) resolved.scene.controller.law = own_law;
   require_settings_act_from(sim, resolved.scene, set);
@@ -154,7 +156,7 @@ void PythonSimulation::take_commands(PythonControl& asked) const {
 }
 
 void PythonSimulation::take() {
-  if (closed_) throw std::invalid_argument("the log of this run is closed");
+  if (closed_) throw std::invalid_argument("the simulation is closed; step a copy of it");
   const auto fail = [this](const std::string& why) {
     failure_ = fmt::format("{} at step {} (t = {:.4f} s, {})", why, sim.step, time(),
                            phase_name(record.controller.phase));
@@ -227,10 +229,26 @@ void PythonSimulation::run_while(const std::function<bool()>& wanted) {
   }
 }
 
+void PythonSimulation::set_state(const Eigen::VectorXd& to, const Eigen::VectorXd& rate) {
+  require_idle();
+  if (log_) throw std::invalid_argument("a run with a log cannot be put elsewhere; copy it");
+  if (!to.allFinite() || !rate.allFinite()) {
+    throw std::invalid_argument("set_state: q or qdot has a number that is not finite");
+  }
+  if (to.segment<4>(3).isZero(0)) {
+    throw std::invalid_argument("set_state: q[3:7] is a quaternion and must not be 0");
+  }
+  State state{to, rate};
+  state.q.segment<4>(3).normalize();
+  sim = start_from(model, scene_, qp_, std::move(state), sim.controller, sim.step);
+  slides = SlideWatch(model);
+  show();
+}
+
 void PythonSimulation::close() {
   require_idle();
-  if (!log_) return;
   closed_ = true;
+  if (!log_) return;
   const std::string status = over()             ? "complete"
                              : failure_.empty() ? fmt::format("failed: closed at step {}", sim.step)
                                                 : "failed: " + failure_;

@@ -52,7 +52,11 @@ class PythonSimulation {
   /// Steps while `wanted`, asked without the GIL, says so and the scene is not over; a signal to
   /// Python ends them with what it raises.
   void run_while(const std::function<bool()>& wanted);
-  /// Ends the log, "complete" where the scene is over.
+  /// Goes on from coordinates `to` (nq) and velocities `rate` (nv) at the same time, with ledgers
+  /// and solver as at a start. Throws std::invalid_argument for a number that is not finite, for a
+  /// quaternion of zeros, and in a run with a log, which could not be made again.
+  void set_state(const Eigen::VectorXd& to, const Eigen::VectorXd& rate);
+  /// Ends the run, and its log: "complete" where the scene is over.
   void close();
   bool over() const { return finished(sim, resolved.scene); }
   /// Its law, which may hold the simulation itself.
@@ -80,6 +84,7 @@ class PythonSimulation {
 
   Scene scene_;  ///< the resolved one, but for a law that a step brings
   pybind11::object law_;
+  std::string qp_;
   std::optional<LogWriter> log_;
   bool closed_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -2,7 +2,9 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/log/coordinate_names.hpp"
 #include "core/log/ledger_columns.hpp"
@@ -73,6 +75,63 @@ py::dict momenta(const PythonSimulation& run) {
   put("integrator", ledger.integrator);
   put("given_back", ledger.given_back);
   return m;
+}
+
+/// A number of each body, or of each velocity: 0 at the root.
+template <class Member>
+Eigen::VectorXd of_bodies(const Model& model, Member member) {
+  Eigen::VectorXd values(model.body_count());
+  std::ranges::transform(model.bodies, values.begin(), member);
+  return values;
+}
+template <class Member>
+Eigen::VectorXd of_velocities(const Model& model, Member member) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(model.nv());
+  std::ranges::transform(model.hinges, values.begin() + root_dofs, member);
+  return values;
+}
+
+Eigen::MatrixX2d limits(const Model& model) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Eigen::MatrixX2d values(model.nv(), 2);
+  values.topRows<root_dofs>().rowwise() = Eigen::RowVector2d(-infinity, infinity);
+  values.bottomRows(model.nv() - root_dofs) = hinge_ranges(model).transpose();
+  return values;
+}
+
+py::array_t<double> orientations(const PythonSimulation& run) {
+  const auto& turns = run.sim.now.observation.kin.rotation;
+  py::array_t<double> values(
+      {static_cast<py::ssize_t>(turns.size()), py::ssize_t{3}, py::ssize_t{3}});
+  for (std::size_t b = 0; b < turns.size(); ++b) {
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.mutable_data(b, 0, 0)) =
+        turns[b];
+  }
+  return values;
+}
+
+Eigen::MatrixXd mass_matrix(const PythonSimulation& run) {
+  const Kinematics& kin = run.sim.now.observation.kin;
+  return dense(run.model, kin,
+               {body_inertias(run.model, kin), Eigen::VectorXd::Zero(run.model.nv())});
+}
+
+/// Row i is the generalised force of a unit force along axis i at the point.
+Eigen::MatrixXd jacobian(const PythonSimulation& run, int body, const py::object& point) {
+  if (body < 0 || body >= run.model.body_count()) {
+    throw py::index_error(
+        fmt::format("body = {}: must be from 0 to {}", body, run.model.body_count() - 1));
+  }
+  const Kinematics& kin = run.sim.now.observation.kin;
+  const Eigen::Vector3d offset =
+      kin.centre_offset(body) + kin.rotation[body] * numbers("point", point, 3);
+  Eigen::MatrixXd rows(3, run.model.nv());
+  for (int i = 0; i < 3; ++i) {
+    Matrix6Xd wrench = Matrix6Xd::Zero(6, run.model.body_count());
+    wrench.col(body) = wrench_of_force(Eigen::Vector3d::Unit(i), offset);
+    rows.row(i) = generalised_force(run.model, kin, wrench);
+  }
+  return rows;
 }
 
 /// None before the knot slides.
@@ -186,11 +245,38 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
           py::arg("until") = py::none(),
           "Steps to the first step at or past a time (s), to the end of a phase by its name, or "
           "until(simulation) is true; or the scene is over. Returns the simulation.")
-      .def("close", &Run::close, "Ends the log; its status is complete where the scene is over.")
+      .def(
+          "set_state",
+          [](Run& r, const py::object& q, const py::object& qdot) {
+            r.set_state(numbers("q", q, r.model.nq()), numbers("qdot", qdot, r.model.nv()));
+          },
+          py::arg("q"), py::arg("qdot"),
+          "Goes on from q (nq,) and qdot (nv,) at the same time, phase and knot. Ledgers begin "
+          "anew. A run with a log raises ValueError: no program could make it again.")
+      .def("close", &Run::close,
+           "Ends the run, and its log, whose status is complete where the scene is over. It can be "
+           "read and copied, but takes no more steps.")
       .def(
           "copy", &copy_of, py::arg("law") = py::none(), py::kw_only(), py::arg("set") = py::dict(),
           "A simulation that goes on from here independently, without a log; by `law` where given, "
           "and with other settings by `set`, as `hagfish branch` has them.")
+      .def("mass_matrix", readable(&mass_matrix),
+           "(nv, nv): of which qdot' M qdot / 2 is the kinetic energy; g, g cm and g cm2")
+      .def(
+          "jacobian",
+          [](const Run& r, int body, const py::object& point) {
+            r.require_readable();
+            return jacobian(r, body, point);
+          },
+          py::arg("body"), py::arg("point") = py::make_tuple(0, 0, 0),
+          "(3, nv): the velocity of a point of a body, cm/s, world, is this times qdot. `point`: "
+          "(3,) from the body's centre in its own axes, cm")
+      .def("__repr__",
+           [](const Run& r) {
+             return fmt::format("<hagfish.Simulation \"{}\": {}, t = {:g} s>",
+                                r.resolved.scene.title, phase_name(r.sim.controller.phase),
+                                r.time());
+           })
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](Run& r, const py::args&) { r.close(); })
       .def(
@@ -205,6 +291,25 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
                              "(bodies, 3) view: centres of the bodies, cm, world")
       .def_property_readonly("velocity", &shown<&Run::velocity>,
                              "(bodies, 3) view: their velocities, cm/s, world")
+      .def_property_readonly(
+          "orientation", readable(&orientations),
+          "(bodies, 3, 3) copy: their axes in columns, X to the tail; body to world")
+      .def_property_readonly(
+          "lengths", [](const Run& r) { return of_bodies(r.model, &Body::length); },
+          "(bodies,) cm, along X of each body")
+      .def_property_readonly(
+          "radii", [](const Run& r) { return of_bodies(r.model, &Body::radius); },
+          "(bodies,) radii of the skin, cm")
+      .def_property_readonly(
+          "limits", [](const Run& r) { return limits(r.model); },
+          "(nv, 2) lowest and highest angle of each hinge, rad; infinite at the root. Where a "
+          "joint's total bend has a limit: what this leaves a hinge if the other one is straight")
+      .def_property_readonly(
+          "stiffness", [](const Run& r) { return of_velocities(r.model, &Hinge::stiffness); },
+          "(nv,) passive springs towards angle 0, dyn cm / rad; 0 at the root")
+      .def_property_readonly(
+          "damping", [](const Run& r) { return of_velocities(r.model, &Hinge::damping); },
+          "(nv,) passive damping of the hinges, dyn cm s / rad; 0 at the root")
       .def_property_readonly("forces", &forces,
                              "views of the last step's generalised forces by name, (nv,), dyn and "
                              "dyn cm, of all kinds "
@@ -254,9 +359,9 @@ changes. `log`: a file to write; `force` replaces one that is there. Raises Inpu
           "mass, dyn cm s; world. What the integrator makes is integrator + given_back")
       .def_property(
           "memory", readable([](const Run& r) { return r.sim.controller.memory; }),
-          [](Run& r, const Eigen::VectorXd& memory) {
+          [](Run& r, const py::object& memory) {
             r.require_readable();
-            r.sim.controller.memory = memory;
+            r.sim.controller.memory = numbers("memory", memory, -1);
           },
           "(any,) copy: numbers that a law keeps from step to step")
       .def_property_readonly("warnings", readable([](const Run& r) { return r.record.warnings; }),

@@ -43,7 +43,7 @@ void read_basis_csv(const std::string& text, const std::string& name, double len
   const std::array<std::string, 5> columns{basis_columns[0],
                                            window ? window_station_column : basis_columns[1],
                                            basis_columns[2], basis_columns[3], basis_columns[4]};
-  read_number_csv<5>(text, name, columns, [&](const std::array<double, 5>& row) {
+  read_number_csv(text, name, columns, [&](const std::array<double, 5>& row) {
     const Sample sample{row[0], row[1], row[2], row[3], row[4]};
     std::string why = objection(sample, basis);
     if (!why.empty()) return why;

@@ -51,10 +51,10 @@ std::string append(const Sample& row, CurvatureProgram& program) {
 CurvatureProgram read_curvature_csv(const std::string& text, const std::string& name) {
   CurvatureProgram program;
   const auto& column = curvature_columns;
-  read_number_csv<5>(text, name, {column[0], column[1], column[2], column[3], column[4]},
-                     [&](const std::array<double, 5>& row) {
-                       return append({row[0], row[1], {row[2], row[3], row[4]}}, program);
-                     });
+  read_number_csv(text, name, {column[0], column[1], column[2], column[3], column[4]},
+                  [&](const std::array<double, 5>& row) {
+                    return append({row[0], row[1], {row[2], row[3], row[4]}}, program);
+                  });
   const std::size_t times = program.time.size();
   if (times < 2) throw_input_error(name + ": a program needs two times or more");
   if (program.value.back().cols() != program.value.front().cols()) {

@@ -13,8 +13,9 @@ inline constexpr const char* curvature_columns[] = {"time (s)", "station (L)", "
                                                     "bend_z (rad/L)", "twist (rad/L)"};
 
 /// The program in `text`; `name` stands for its file in errors. Lines that begin with # are
-/// comments. Throws InputError, one line, for a column that is missing, what is no finite number,
-/// and rows that are not times x stations, each rising.
+/// comments; separators and encodings as DelimitedText reads them. Throws InputError, one line, for
+/// a column that is missing, what is no finite number, and rows that are not times x stations, each
+/// rising.
 CurvatureProgram read_curvature_csv(const std::string& text, const std::string& name);
 
 /// The text from which read_curvature_csv() makes `program`, without its noise, rounded to

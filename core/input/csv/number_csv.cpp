@@ -2,58 +2,61 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
-#include <sstream>
-#include <utility>
 
-#include "core/input/input_error.hpp"
+#include "core/input/csv/delimited_text.hpp"
 #include "core/input/input_text.hpp"
-
-#define CSV_IO_NO_THREAD
-#include <libfccp/csv.h>
 
 namespace hagfish {
 namespace {
 
-template <std::size_t N, std::size_t... I>
-void read_rows(const std::string& text, const std::string& name,
-               const std::array<std::string, N>& columns, const RowTaker<N>& take,
-               std::index_sequence<I...> /*columns*/) {
-  std::istringstream stream(text);
-  io::CSVReader<N, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
-                io::throw_on_overflow, io::single_and_empty_line_comment<'#'>>
-      reader(name, stream);
-  reader.read_header(io::ignore_extra_column, columns[I]...);
-  const auto fail = [&](const std::string& why) {
-    throw_input_error(fmt::format("{}:{}: {}", name, reader.get_file_line(), why));
-  };
-  std::array<char*, N> field;
-  while (reader.read_row(field[I]...)) {
-    std::array<double, N> row;
-    for (std::size_t i = 0; i < N; ++i) {
-      const std::optional<double> value = finite_number(field[i]);
-      if (!value) {
-        fail(fmt::format("{} = {}: must be a number", columns[i], shortened(field[i])));
-      }
-      row[i] = *value;
-    }
-    if (const std::string why = take(row); !why.empty()) fail(why);
+/// The place of `column` in the heading.
+std::size_t place_of(const std::string& column, const DelimitedText& table,
+                     const std::string& name) {
+  const std::size_t count = table.rows() > 0 ? table.cells(0) : 0;
+  std::optional<std::size_t> place;
+  std::string heading;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::string_view cell = table.cell(0, k);
+    heading += fmt::format("{}{}", k > 0 ? ", " : "", cell);
+    if (cell != column) continue;
+    if (place) throw_input_error(fmt::format("{}: two columns {}", name, column));
+    place = k;
   }
+  if (!place) {
+    throw_input_error(fmt::format("{}: no column {} among the {} that {} separate: {}", name,
+                                  column, count, table.separator_name(), shortened(heading)));
+  }
+  return *place;
 }
 
 }  // namespace
 
-template <std::size_t N>
 void read_number_csv(const std::string& text, const std::string& name,
-                     const std::array<std::string, N>& columns, const RowTaker<N>& take) {
-  try {
-    read_rows(text, name, columns, take, std::make_index_sequence<N>());
-  } catch (const io::error::base& error) {
-    throw_input_error(name + ": " + error.what());
+                     const std::array<std::string, number_columns>& columns, const RowTaker& take) {
+  const DelimitedText table(text);
+  std::array<std::size_t, number_columns> place;
+  for (std::size_t i = 0; i < columns.size(); ++i) place[i] = place_of(columns[i], table, name);
+  for (std::size_t row = 1; row < table.rows(); ++row) {
+    const auto fail = [&](const std::string& why) {
+      throw_input_error(fmt::format("{}:{}: {}", name, table.line(row), why));
+    };
+    if (table.cells(row) != table.cells(0)) {
+      fail(fmt::format("{} separate {} cells, but {} in the heading", table.separator_name(),
+                       table.cells(row), table.cells(0)));
+    }
+    std::array<double, number_columns> numbers;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::optional<double> value = table.number(row, place[i]);
+      if (!value || std::isnan(*value)) {
+        fail(fmt::format("{} = {}: must be a number", columns[i],
+                         shortened(std::string(table.cell(row, place[i])))));
+      }
+      numbers[i] = *value;
+    }
+    if (const std::string why = take(numbers); !why.empty()) fail(why);
   }
 }
-
-template void read_number_csv(const std::string&, const std::string&,
-                              const std::array<std::string, 5>&, const RowTaker<5>&);
 
 }  // namespace hagfish

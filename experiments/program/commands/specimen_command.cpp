@@ -33,6 +33,8 @@ const std::map<std::string, BaseScene> base_scenes{{"3_1", {"living_overhand", 1
                                                    {"4_1", {"living_figure_eight", 1.1}},
                                                    {"5_1", {"living_double_overhand", 1.1}},
                                                    {"5_2", {"living_three_twist", 1.1}}};
+/// How thin, likewise: the program of each knot still tied at this, and none did at 0.7.
+constexpr double thinnest = 0.8;
 constexpr int paper_bodies = 100;     // of the chain whose every other joint bends by the limits
 constexpr double most_around = 1000;  // cm
 constexpr double most_bending = 180;  // degrees, as specimen files have it
@@ -144,16 +146,19 @@ void tell(const Specimen& animal, const Specimen& paper, double largest_limit) {
   }
 }
 
-/// Says so where nobody saw that an animal as thick as this ties the knot.
-void tell_whether_it_ties(const std::string& knot, const AnimalRatios& beside) {
+/// Says so where nobody saw that an animal as thick or as thin as this ties the knot.
+void tell_whether_it_ties(const SpecimenOptions& options, const AnimalRatios& beside) {
   constexpr double rounding = 1e-9;
-  const double thickest = base_scenes.at(knot).thickest;
-  if (beside.thickness() <= thickest * (1 + rounding)) return;
+  const BaseScene& base = base_scenes.at(options.knot);
+  const double thickness = beside.thickness();
+  if (thickness >= thinnest * (1 - rounding) && thickness <= base.thickest * (1 + rounding)) {
+    return;
+  }
   fmt::print(
       "knot           {} may not be tied: the animal is {:.3g} times as thick for its length as "
-      "the "
-      "paper's; up to {:g} was tied\n",
-      knot, beside.thickness(), thickest);
+      "the paper's; {:g} to {:g} was tied. For a program of its own: hagfish design {} --specimen "
+      "{} --out FOLDER\n",
+      options.knot, thickness, thinnest, base.thickest, options.knot, shell_word(options.out));
 }
 
 int specimen(const SpecimenOptions& options) {
@@ -171,7 +176,7 @@ int specimen(const SpecimenOptions& options) {
     const fs::path relative =
         fs::absolute(options.out).lexically_relative(fs::absolute(options.scene_out).parent_path());
     scene_out->write(specimen_scene_text(animal, relative.string(), base_name, base));
-    tell_whether_it_ties(options.knot, ratios(animal, base.specimen));
+    tell_whether_it_ties(options, ratios(animal, base.specimen));
     fmt::print("hagfish run {}\n", shell_word(options.scene_out));
   }
   return exit_code::done;

@@ -6,6 +6,7 @@
 import argparse
 
 import numpy as np
+from numpy.typing import NDArray
 
 import hagfish
 
@@ -18,7 +19,7 @@ SHARE = 0.01  # of what was worked and of the momentum that passed, that the tim
 class Gait:
     """A law that slides at four speeds, cm/s, and notes its effort."""
 
-    def __init__(self, speeds: np.ndarray) -> None:
+    def __init__(self, speeds: NDArray[np.float64]) -> None:
         self.speeds = speeds
         self.effort = 0.0  # dyn cm s
 
@@ -31,18 +32,18 @@ class Gait:
 def made_by_steps(before: hagfish.Simulation, after: hagfish.Simulation) -> float:
     """Energy and momentum that the time steps made, as shares: a search finds whatever is rewarded, errors too."""
 
-    def grew(name: str) -> np.ndarray:
+    def grew(name: str) -> NDArray[np.float64]:
         return after.momentum[name] - before.momentum[name]
 
     worked = sum(after.energy[k] - before.energy[k] for k in after.energy if k.startswith("work_"))
     energy = (after.energy["integrator_error"] - before.energy["integrator_error"]) / abs(worked)
     if after.clamped:
-        return energy  # what holds the head takes the momentum
+        return float(energy)  # what holds the head takes the momentum
     momentum = np.linalg.norm(grew("integrator") + grew("given_back"), axis=1)
-    return max(energy, *(momentum / np.linalg.norm(grew("drag"), axis=1)))
+    return float(max(energy, *(momentum / np.linalg.norm(grew("drag"), axis=1))))
 
 
-def score(tied: hagfish.Simulation, speeds: np.ndarray) -> tuple[float, float]:
+def score(tied: hagfish.Simulation, speeds: NDArray[np.float64]) -> tuple[float, float]:
     """What a gait comes to from where the knot is tied, and how far it slides; both in cm."""
     gait = Gait(speeds)
     sim = tied.copy(law=gait)
@@ -54,7 +55,7 @@ def score(tied: hagfish.Simulation, speeds: np.ndarray) -> tuple[float, float]:
         return -np.inf, 0.0
     if made_by_steps(tied, sim) > SHARE:
         return -np.inf, 0.0
-    slid = tied.head_end - sim.head_end
+    slid = (tied.head_end or 0.0) - (sim.head_end or 0.0)
     return slid - EFFORT * gait.effort, slid
 
 

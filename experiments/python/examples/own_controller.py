@@ -19,7 +19,7 @@ def strokes(sim: hagfish.Simulation, control: hagfish.Control) -> None:
 
 with hagfish.Simulation("table1", set={"time.step": 0.005}, law=strokes, log=sys.argv[1], force=True) as sim:
     sim.run(until="tighten")
-    start, begin = sim.head_end, sim.time
+    start, begin = sim.head_end or 0.0, sim.time
     while sim.phase == "slide":
         sim.run(until=sim.time + STROKE + REST)
         if sim.head_end is not None:

@@ -1,15 +1,15 @@
-"""Logs of runs, read with h5py, and with xarray where it is installed."""
+"""Logs of runs, read with h5py, and with xarray, where they are installed."""
 
 from __future__ import annotations
 
+import importlib
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-import h5py
-import numpy as np
-
 if TYPE_CHECKING:
+    import numpy as np
     import xarray
+    from numpy.typing import NDArray
 
 # Axes behind that of the frames, told by their lengths, which are those of these datasets of /model.
 _AXES = {"nq": "coordinate_name", "nv": "dof_name", "body": "mass"}
@@ -19,13 +19,14 @@ class Log:
     """A log, format hagfish-log 1. `file` is the h5py.File; log["trajectory/q"] is a numpy array."""
 
     def __init__(self, path: str | PathLike[str]) -> None:
-        self.file = h5py.File(path, "r")
+        self.file = _h5py().File(path, "r")
         if self.attribute("format") != "hagfish-log":
             raise ValueError(f"{path}: not a hagfish-log file")
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> NDArray[Any]:
         """All of a dataset, shape and unit as experiments/docs/reference/log_format.md says."""
-        return self.file[name][()]
+        values: NDArray[Any] = self.file[name][()]
+        return values
 
     def __enter__(self) -> Log:
         return self
@@ -45,7 +46,8 @@ class Log:
     def names(self) -> list[str]:
         """Paths of all datasets."""
         found: list[str] = []
-        self.file.visititems(lambda name, node: found.append(name) if isinstance(node, h5py.Dataset) else None)
+        dataset = _h5py().Dataset
+        self.file.visititems(lambda name, node: found.append(name) if isinstance(node, dataset) else None)
         return found
 
     @property
@@ -54,7 +56,7 @@ class Log:
         return self.attribute("status")
 
     @property
-    def time(self) -> np.ndarray:
+    def time(self) -> NDArray[np.float64]:
         """(frames,) s"""
         return self["trajectory/time"]
 
@@ -62,7 +64,7 @@ class Log:
     def phase(self) -> list[str]:
         """Name of the phase at each frame."""
         dataset = self.file["trajectory/phase"]
-        names = {number: name for name, number in h5py.check_enum_dtype(dataset.dtype).items()}
+        names = {number: name for name, number in _h5py().check_enum_dtype(dataset.dtype).items()}
         return [names[int(number)] for number in dataset[()]]
 
     def array(self, name: str) -> xarray.DataArray:
@@ -86,3 +88,11 @@ class Log:
                 dims.append(f"axis_{k}")
         attributes = {key: dataset.attrs[key] for key in ("unit", "description") if key in dataset.attrs}
         return xarray.DataArray(dataset[()], dims=dims, coords=coordinates, name=name, attrs=attributes)
+
+
+def _h5py() -> Any:
+    """Imported where a log is read, so that runs do not need it."""
+    try:
+        return importlib.import_module("h5py")
+    except ImportError as error:
+        raise ImportError(f"hagfish.Log needs h5py (Debian's python3-h5py), which cannot be imported: {error}") from error

@@ -6,9 +6,12 @@ import itertools
 import multiprocessing
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._core import InputError, Simulation, StepError
+
+if TYPE_CHECKING:
+    from ._core import _Law, _Until
 
 Row = dict[str, Any]
 
@@ -17,9 +20,9 @@ def sweep(
     scene: str | PathLike[str],
     values: Mapping[str, Sequence[object]],
     *,
-    law: Callable[..., object] | None = None,
+    law: Callable[[], _Law] | None = None,
     set: Mapping[str, object] | None = None,
-    until: object = None,
+    until: _Until = None,
     figures: Callable[[Simulation], Mapping[str, object]] | None = None,
     processes: int = 1,
 ) -> list[Row]:
@@ -53,7 +56,14 @@ def _run_of_parent(index: int) -> Row:
     return _run(index)
 
 
-def _row(scene, cell, law, set, until, figures) -> Row:
+def _row(
+    scene: str | PathLike[str],
+    cell: Row,
+    law: Callable[[], _Law] | None,
+    set: Row,
+    until: _Until,
+    figures: Callable[[Simulation], Mapping[str, object]] | None,
+) -> Row:
     row: Row = {**cell, "outcome": "ok", "message": "", "time": None, "phase": None, "knot": None, "warnings": []}
     try:
         sim = Simulation(scene, set={**set, **cell}, law=law() if law else None)

@@ -28,7 +28,7 @@ start_slurm "$slurm"
 # All cores of the node are Slurm's to give away, also those that this shell may not use.
 (
   cd "$slurm"
-  exec snakemake --snakefile "$root/experiments/sweep/cluster/Snakefile" --profile "$root/experiments/cluster/profiles/slurm" \
+  exec snakemake --snakefile "$root/experiments/sweep/cluster/Snakefile" --profile "$root/experiments/sweep/cluster/profiles/slurm" \
     --latency-wait 10 --config grid="$grid" out="$out/slurm" parts=10 hagfish="$hagfish"
 ) &>"$out/snakemake.log" &
 snakemake=$!
@@ -72,7 +72,7 @@ grep -h ' of them now' "$out"/slurm/parts/*.log | grep -v ' 100 of them' | sed '
 echo "Searches for a 3_1 by three seeds through Slurm"
 (
   cd "$slurm"
-  exec snakemake --snakefile "$root/experiments/sweep/cluster/design.smk" --profile "$root/experiments/cluster/profiles/slurm" \
+  exec snakemake --snakefile "$root/experiments/sweep/cluster/design.smk" --profile "$root/experiments/sweep/cluster/profiles/slurm" \
     --latency-wait 10 --config knot="'3_1'" out="$out/searches" seeds=3 hagfish="$hagfish"
 ) &>"$out/searches.log" || { tail -n 30 "$out/searches.log" >&2; exit 1; }
 [[ -e $out/search/result.csv ]] || "$hagfish" design 3_1 --seed 2 --out "$out/search" --quiet

@@ -11,12 +11,12 @@ for key in ("knot", "out"):
     if key not in config:
         raise WorkflowError(f"--config {key}=... is missing")
 
-ROOT = Path(workflow.basedir).parents[1]
+ROOT = Path(workflow.basedir).parents[2]
 PROGRAM = config.get("hagfish", ROOT / "build/release/experiments/hagfish")
 if not isinstance(config["knot"], str):
     raise WorkflowError("--config knot: a name such as 3_1 is read as a number; write knot=\"'3_1'\"")
 KNOT, OUT, SEEDS, BUDGET = config["knot"], config["out"], int(config.get("seeds", 8)), config.get("budget", "15m")
-SPECIMEN = f"--specimen '{config['specimen']}'" if "specimen" in config else ""
+SPECIMEN = ["--specimen", config["specimen"]] if "specimen" in config else []
 
 
 rule all:
@@ -34,9 +34,9 @@ rule search:
         mem_mb=lambda wildcards, threads: 500 + 100 * threads,
     retries: 3
     shell:
-        "resume=; [ ! -e {OUT}/{wildcards.part}/search.toml ] || resume=--resume; "
-        "{PROGRAM} design '{KNOT}' --seed {wildcards.part} --out {OUT}/{wildcards.part} --budget {BUDGET} --threads {threads} {SPECIMEN} $resume "
-        ">>{log} 2>&1 || [ $? -eq 3 ]"
+        "resume=; [ ! -e {OUT:q}/{wildcards.part}/search.toml ] || resume=--resume; "
+        "{PROGRAM:q} design {KNOT:q} --seed {wildcards.part} --out {OUT:q}/{wildcards.part} --budget {BUDGET:q} --threads {threads} {SPECIMEN:q} $resume "
+        ">>{log:q} 2>&1 || [ $? -eq 3 ]"
 
 
 rule gather:

@@ -110,7 +110,7 @@ def test_a_thicker_animal_is_thicker_in_all_that_goes_with_the_girth(tmp_path):
 
 KNOTS = {"3_1": ("Overhand knot", 3), "4_1": ("Figure-eight knot", 5), "5_1": ("Double overhand knot", 5),
          "5_2": ("Three-twist knot", 7)}  # with their determinants
-FRESH = [("3_1", ANIMAL), ("3_1", ["--thicker", 0.9]), ("3_1", ["--length", 80]), ("4_1", ["--thicker", 1.1]),
+FRESH = [("3_1", ANIMAL), ("3_1", ["--thicker", 0.8]), ("3_1", ["--length", 80]), ("4_1", ["--thicker", 1.1]),
          ("5_1", ["--length", 20]), ("5_2", ["--thicker", 1.1])]
 
 
@@ -150,9 +150,12 @@ def test_settings_that_go_with_the_girth_are_the_papers_by_it(tmp_path):
 
 
 @pytest.mark.parametrize("knot", ["4_1", "5_2"])
-def test_an_animal_too_thick_for_its_knot_is_told(tmp_path, knot):
-    told = f"{knot} may not be tied: the animal is 1.2 times as thick for its length as the paper's; up to 1.1 was tied"
-    assert told in with_scene(tmp_path, "--thicker", 1.2, "--knot", knot)
-    assert "the script ended with" in hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5", code=3)
+def test_an_animal_too_thick_or_too_thin_for_its_knot_is_told(tmp_path, knot):
+    for thicker in (1.2, 0.7):
+        said = with_scene(tmp_path, "--thicker", thicker, "--knot", knot, "--force")
+        told = f"the animal is {thicker} times as thick for its length as the paper's; 0.8 to 1.1 was tied"
+        assert f"{knot} may not be tied: {told}. For a program of its own: hagfish design {knot} --specimen" in said
+        ended = hagfish(tmp_path, "run", "knot.toml", "--quiet", "--out", "a.h5", "--force", code=3)
+        assert "the script ended with" in ended
     # A longer one of that girth is as slender as the paper's.
     assert "may not be tied" not in with_scene(tmp_path, "--length", 42.4 * 1.2, "--knot", knot, "--force")

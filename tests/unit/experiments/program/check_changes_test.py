@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import signal
 import subprocess
 import time
 
@@ -136,6 +137,25 @@ def test_a_run_that_goes_on_hears_signals_and_leaves_what_there_is(folder):
     assert resumed.returncode == 1 and "stays as it was" in said and "interrupted" in said, said
     assert part.read_bytes() == left
     part.unlink()
+
+
+@pytest.mark.parametrize("name", ["SIGUSR1", "SIGUSR2", "SIGXCPU"])
+def test_a_run_that_a_scheduler_ends_keeps_its_last_state(tmp_path, name):
+    command = [HAGFISH, "run", "table1", "--set", "time.step=0.0001", "--quiet", "--out", "ended.h5"]
+    for resumed in (False, True):  # that is in a process below the one which hears the signal
+        process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+        if resumed:
+            assert "run again from the start" in process.stderr.readline()
+        while not resumed and not (tmp_path / "ended.h5.part").exists():
+            time.sleep(0.001)
+        time.sleep(1)  # of a run of some ten seconds
+        process.send_signal(getattr(signal, name))
+        said = process.communicate()[1]
+        assert process.returncode == 1 and "interrupted" in said, said
+        command = [HAGFISH, "run", "--resume", "ended.h5"]
+        if not resumed:
+            with h5py.File(tmp_path / "ended.h5") as log:
+                assert "interrupted" in str(log.attrs["status"]) and len(log["trajectory/time"]) > 1
 
 
 def test_a_run_that_claims_to_be_whole_is(folder):

@@ -121,7 +121,7 @@ def twice(control):
     [
         (lambda control: control.torque.__setitem__(2, 1), "torque acts on the root"),
         (lambda control: control.torque.__setitem__(20, np.nan), "not finite"),
-        (lambda control: setattr(control, "torque", np.zeros(3)), "3 numbers, but the animal has 155 velocities"),
+        (lambda control: setattr(control, "torque", np.zeros(3)), "torque has shape (3,), but shape (155,) is wanted"),
         (lambda control: control.torque_rate.__setitem__(30, -1), "rate is negative"),
         (twice, "two commands of Eq. 6 are at one end of the knot"),
         (lambda control: setattr(control.commands[0], "effort", -1), "effort -1 must be finite"),
@@ -133,6 +133,19 @@ def test_a_control_that_is_none_is_refused_in_a_line(tied, change, told):
         sim.step()
     assert sim.steps == tied.steps
     assert_array_equal(sim.q, tied.q)
+
+
+@pytest.mark.parametrize("value", [None, 1j, "1"])
+def test_arrays_of_what_are_no_real_numbers_are_refused(sim, value):
+    control = sim.control()
+    for owner, name in ((control, "torque"), (control, "torque_rate"), (control, "rest_shape"), (control, "tip"), (sim, "memory")):
+        with pytest.raises(TypeError, match=f"{name} must be real numbers, not list of dtype"):
+            setattr(owner, name, [value] * 3)
+    for value in (np.zeros((155, 1)), 3.0):
+        with pytest.raises(ValueError, match=re.escape(f"torque has shape {np.shape(value)}, but shape (155,)")):
+            control.torque = value
+    view, control.torque = control.torque, np.arange(155, dtype="f4")
+    assert_array_equal(view, np.arange(155))
 
 
 def test_a_laws_memory_is_as_it_was_where_a_step_fails(tied):

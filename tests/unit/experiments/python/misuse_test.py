@@ -54,7 +54,7 @@ def test_a_law_may_step_a_copy(sim):
     assert [other.steps for other in ahead] == [1, 2]
 
 
-USES = "step run copy close contacts first_contact knot head_end warnings energy momentum forces memory clamped"
+USES = "step run copy close contacts first_contact knot head_end warnings energy momentum forces memory clamped mass_matrix orientation"
 
 
 @pytest.mark.parametrize("name", USES.split())

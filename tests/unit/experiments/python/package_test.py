@@ -1,8 +1,8 @@
-"""Logs in Python, the type stubs, the examples and the installed package."""
+"""Logs in Python, the types, the examples and the installed package."""
 
-import ast
 import inspect
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,9 +11,11 @@ import h5py
 import hagfish
 import pytest
 
+import program
 from program import ROOT
 
 EXAMPLES = ROOT / "experiments/python/examples"
+PACKAGE = ROOT / "experiments/python/hagfish"
 
 
 @pytest.fixture(scope="session")
@@ -45,23 +47,38 @@ def test_xarrays_have_named_axes_and_units(log):
     assert log.array("trajectory/position").dims == ("time", "body", "axis_2")
 
 
-def members(stub: ast.ClassDef) -> set[str]:
-    names = {getattr(node, "name", None) or getattr(getattr(node, "target", None), "id", "_") for node in stub.body}
-    return {name for name in names if not name.startswith("_")}
+@pytest.mark.skipif(shutil.which("mypy") is None, reason="no mypy here")
+def test_types_are_those_of_the_module(tmp_path):
+    (tmp_path / "pybind11").write_text(r"hagfish\._core\.(Command|Contact|Control|Simulation)")  # their metaclass
+    environment = os.environ | {"MYPYPATH": str(EXAMPLES.parent)}
+    checks = ["mypy", "--strict", EXAMPLES, *PACKAGE.glob("*.py")], ["stubtest", "--allowlist", "pybind11", "hagfish._core"]
+    for command in checks:
+        done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_stubs_name_what_there_is_and_it_says_what_it_is():
-    stub = ast.parse((Path(hagfish.__file__).with_name("__init__.pyi")).read_text())
-    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
-    functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
-    imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
-    passed_on = {alias.asname for node in imports for alias in node.names} - {None}
-    assert set(hagfish.__all__) == classes.keys() | functions | passed_on | {"laws", "revision"}
+def test_every_name_says_what_it_is():
     plain = {"contact", "towards", "end", "bodies", "nq", "nv"}
-    for name in ("Simulation", "Control", "Command", "Contact"):
-        there = {member: value for member, value in vars(getattr(hagfish, name)).items() if not member.startswith("_")}
-        assert members(classes[name]) == there.keys(), name
-        assert [member for member, value in there.items() if member not in plain and not inspect.getdoc(value)] == []
+    for kind in (hagfish.Simulation, hagfish.Control, hagfish.Command, hagfish.Contact):
+        there = {name: value for name, value in vars(kind).items() if not name.startswith("_")}
+        assert [name for name, value in there.items() if name not in plain and not inspect.getdoc(value)] == []
+    assert hagfish.__version__ == program.hagfish(".", "--version").split()[0]
+
+
+@pytest.mark.parametrize(
+    ("module", "text", "told"),
+    [
+        ("h5py", "raise ImportError('none')", "hagfish.Log needs h5py (Debian's python3-h5py), which cannot be imported: none"),
+        ("numpy", "__version__ = '2.1.0'", "hagfish was built for NumPy 1, but this is NumPy 2.1.0: "),
+    ],
+)
+def test_what_it_needs_is_told_where_it_is_not_there(tmp_path, module, text, told):
+    (tmp_path / f"{module}.py").write_text(text)
+    code = "import hagfish; hagfish.Simulation('table1').step(); print('stepped'); hagfish.Log('a.h5')"
+    environment = os.environ | {"PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}
+    done = subprocess.run([sys.executable, "-B", "-c", code], env=environment, capture_output=True, text=True)
+    assert done.stdout == ("stepped\n" if module == "h5py" else "")
+    assert done.stderr.splitlines()[-1].startswith("ImportError: " + told)
 
 
 def run(script, *arguments):
@@ -83,6 +100,15 @@ def test_the_example_that_learns(tmp_path):
     assert reached == sorted(reached)
 
 
+def test_the_example_of_an_environment(tmp_path):
+    slow, fast = (float(line.split("return ")[1].split()[0]) for line in run("environment.py"))
+    assert 0 < slow < fast
+
+
+def test_the_example_of_a_pd_controller_ties_the_knot(tmp_path):
+    assert ": a 3_1, " in run("pd_controller.py")[0]
+
+
 def test_the_installed_package_is_whole(tmp_path):
     build = Path(os.environ["HAGFISH_BUILD"])
     subprocess.run(["cmake", "--install", build, "--prefix", tmp_path], check=True, capture_output=True)
@@ -91,7 +117,7 @@ def test_the_installed_package_is_whole(tmp_path):
     environment, command = os.environ | {"PYTHONPATH": str(package)}, [sys.executable, "-B", "-c", code]
     told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     assert told.stdout.strip() == str(package / "hagfish/__init__.py")
-    assert all((package / "hagfish" / name).exists() for name in ("__init__.pyi", "py.typed", "log.py"))
+    assert all((package / "hagfish" / name).exists() for name in ("_core.pyi", "py.typed", "log.py"))
 
 
 def test_a_design_says_what_it_found(tmp_path):

@@ -1,9 +1,11 @@
 """Runs in Python: the same as the program's, arrays that show the present, errors by the same line."""
 
+import re
+
 import hagfish
 import numpy as np
 import pytest
-from numpy.testing import assert_array_equal
+from numpy.testing import assert_allclose, assert_array_equal
 
 from program import different, logged
 
@@ -107,6 +109,94 @@ def test_bad_input_is_told_in_the_programs_line(tmp_path, refusal):
     assert str(raised.value) == refusal(tmp_path, "run", "table1", "--out", log)
     with pytest.raises(ValueError, match="until = knot: form"):
         hagfish.Simulation("table1").run(until="knot")
+
+
+def test_settings_are_sequences_of_any_kind_to_the_last_bit(tied):
+    assert tied.q[20] != float(f"{tied.q[20]:.15g}") or tied.q[21] != float(f"{tied.q[21]:.15g}")
+    again = hagfish.Simulation("table1", set={"start.q": tied.q, "start.qdot": tuple(tied.qdot)})
+    assert_array_equal(again.q[7:], tied.q[7:])
+    assert_array_equal(again.qdot, tied.qdot)
+    bend = np.array([[0, 0.1, 0.5, -1], [1, 0.1, 0.3, 2]])
+    kinds = {"start.bend": list(bend), "clamp_head": np.bool_(False), "model.bodies": np.int64(40)}
+    plain = {"start.bend": bend.tolist(), "clamp_head": False, "model.bodies": 40}
+    kinds |= {"time.step": np.float32(0.005), "title": np.str_('a "b"'), "expect.types": (("0_1", 0, 1.5),)}
+    plain |= {"time.step": 0.005, "title": 'a "b"', "expect.types": [["0_1", 0, 1.5]]}
+    assert hagfish.Simulation("table1", set=kinds).scene == hagfish.Simulation("table1", set=plain).scene
+
+
+@pytest.mark.parametrize("value", [None, 1j, b"1", {"step": 1}, [[None]], {1, 2}, np.array([1j])])
+def test_settings_of_no_kind_that_a_scene_has_are_refused_in_a_line(value):
+    with pytest.raises(hagfish.InputError, match="^set: time.step = .*: must be a number, [^\n]*$"):
+        hagfish.Simulation("table1", set={"time.step": value})
+
+
+def moved(q, v, h):
+    """q moved by v for the time h, to first order; its rotation is of the body."""
+    (w, x, y, z), (a, b, c) = q[3:7], v[3:6]
+    turn = np.array([-x * a - y * b - z * c, w * a + y * c - z * b, w * b + z * a - x * c, w * c + x * b - y * a])
+    return q + h * np.concatenate([v[:3], turn / 2, v[6:]])
+
+
+def test_mass_jacobian_and_orientation_are_those_of_the_motion(tied):
+    assert tied.qdot @ tied.mass_matrix() @ tied.qdot / 2 == pytest.approx(tied.energy["kinetic"], rel=1e-9)
+    along = tied.orientation[:, :, 0] * tied.lengths[:, None] / 2  # to each body's next joint
+    assert_allclose((tied.position + along)[:-1], (tied.position - along)[1:], atol=1e-9)
+    body, point, h = 60, np.array([0.1, -0.2, 0.3]), 1e-5
+    v = np.random.default_rng(3).normal(size=tied.nv)
+    sim, places = tied.copy(), []
+    for step in (-h, h):
+        sim.set_state(moved(tied.q, v, step), tied.qdot)
+        places.append(sim.position[body] + sim.orientation[body] @ point)
+    assert_allclose(tied.jacobian(body, point) @ v, (places[1] - places[0]) / (2 * h), rtol=1e-6)
+    assert_allclose(tied.jacobian(body) @ tied.qdot, tied.velocity[body], rtol=1e-9)
+    with pytest.raises(IndexError, match="body = 100: must be from 0 to 99"):
+        tied.jacobian(100)
+
+
+def test_what_a_law_works_against_is_what_logs_have(tmp_path):
+    with hagfish.Simulation("living_overhand", log=tmp_path / "model.h5") as sim:
+        sim.run(until=1.0)
+    log = hagfish.Log(tmp_path / "model.h5")
+    assert_array_equal(sim.limits.T, [log["model/limit_lower"], log["model/limit_upper"]])
+    assert_array_equal(sim.lengths, log["model/length"])
+    assert_array_equal(sim.radii, log["model/radius"])
+    assert sim.stiffness[6:] @ sim.q[7:] ** 2 / 2 == pytest.approx(sim.energy["elastic"], rel=1e-9)
+    assert (sim.damping[6:] > 0).all() and not sim.damping[:6].any()
+
+
+def test_a_state_that_is_set_is_gone_on_from(tied):
+    q, qdot = tied.q.copy(), tied.qdot.copy()
+    near, far = tied.copy(), tied.copy()
+    far.run(until=tied.time + 0.1)
+    for sim in (near, far):
+        view = sim.q
+        sim.set_state(q, list(qdot))
+        assert_allclose(view, q, rtol=1e-15, atol=0)
+        control = sim.control()
+        control.clamp_head = False
+        sim.step(control)
+    assert_array_equal(near.q, far.q)  # whatever the solver had before
+    assert far.steps > near.steps
+    assert abs(far.energy["dissipated"]) < tied.energy["dissipated"]
+    for bad, told in (([1.0], "q has shape (1,)"), (q * np.nan, "not finite"), (q * 0, "quaternion")):
+        with pytest.raises(ValueError, match=re.escape(told)):
+            far.set_state(bad, qdot)
+
+
+def test_a_run_with_a_log_is_not_put_elsewhere_and_a_closed_one_takes_no_step(tmp_path):
+    sim = hagfish.Simulation("table1", set=FAST, log=tmp_path / "put.h5")
+    with pytest.raises(ValueError, match="a run with a log"):
+        sim.set_state(sim.q, sim.qdot)
+    sim.close()
+    plain = hagfish.Simulation("table1", set=FAST)
+    plain.close()
+    plain.close()
+    for closed in (sim, plain):
+        for step in (closed.step, closed.run):
+            with pytest.raises(ValueError, match="the simulation is closed"):
+                step()
+        closed.copy().step()
+    assert repr(plain) == '<hagfish.Simulation "Overhand knot of a Pacific hagfish (Table 1)": form, t = 0 s>'
 
 
 def test_a_step_that_cannot_be_taken_leaves_the_run_as_it_was(tmp_path):

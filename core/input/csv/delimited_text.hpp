@@ -1,4 +1,4 @@
-// Tables as programs write them: cells between commas, semicolons or tabs.
+// Tables as programs of any country write them: cells between commas, semicolons or tabs.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,10 @@ namespace hagfish {
 
 class DelimitedText {
  public:
-  /// `text` is kept. Lines end with \n, \r\n or \r; empty ones and those that begin with # do not
-  /// count. The separator is a semicolon where the first line has one, else a tab, else a comma.
-  /// Cells lose the quotes and blanks around them.
+  /// `text` is kept: in UTF-8, or in UTF-16 behind its byte order mark. Lines end with \n, \r\n or
+  /// \r; empty ones and those that begin with # do not count. The separator is a semicolon where
+  /// the first line has one, else a tab, else a comma. Cells lose the quotes and blanks around
+  /// them.
   explicit DelimitedText(std::string text);
 
   std::size_t rows() const { return first_.size(); }

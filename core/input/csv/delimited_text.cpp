@@ -1,4 +1,4 @@
-#include "experiments/film/delimited_text.hpp"
+#include "core/input/csv/delimited_text.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -10,6 +10,19 @@
 namespace hagfish {
 namespace {
 
+/// What Windows programs write before UTF-8, and before UTF-16 with the low byte first.
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF", utf16_mark = "\xFF\xFE";
+
+std::string narrow(std::string text) {
+  if (text.starts_with(utf8_mark)) return text.substr(utf8_mark.size());
+  if (!text.starts_with(utf16_mark)) return text;
+  std::string narrow;  // letters beyond ASCII are in names alone
+  for (std::size_t k = utf16_mark.size(); k + 1 < text.size(); k += 2) {
+    narrow += text[k + 1] == 0 ? text[k] : '?';
+  }
+  return narrow;
+}
+
 std::string_view trimmed(std::string_view cell) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '"'; };
   while (!cell.empty() && blank(cell.front())) cell.remove_prefix(1);
@@ -19,7 +32,7 @@ std::string_view trimmed(std::string_view cell) {
 
 }  // namespace
 
-DelimitedText::DelimitedText(std::string text) : text_(std::move(text)) {
+DelimitedText::DelimitedText(std::string text) : text_(narrow(std::move(text))) {
   const std::string_view all = text_;
   std::size_t line = 0;
   bool known = false;

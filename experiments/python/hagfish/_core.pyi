@@ -1,16 +1,10 @@
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from os import PathLike
 from types import TracebackType
-from typing import Any, Literal
+from typing import Literal, NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-from .design import Design as Design
-from .design import design as design
-from .log import Log as Log
-
-__all__: list[str]
 
 _Array = NDArray[np.float64]
 _Law = Callable[[Simulation, Control], object]
@@ -18,21 +12,13 @@ _Phase = Literal["form", "tighten", "slide", "pull", "reverse", "release", "free
 _End = Literal["head", "tail"]
 _KnotEnd = Literal["first", "last", "neither"]
 _Slip = Literal["paper", "shape"]
+_Until = float | _Phase | Callable[[Simulation], bool] | None
 
 laws: dict[str, str]
 revision: str
+__version__: str
 
 def scenes() -> list[str]: ...
-def sweep(
-    scene: str | PathLike[str],
-    values: Mapping[str, Sequence[object]],
-    *,
-    law: Callable[[], _Law] | None = None,
-    set: Mapping[str, object] | None = None,
-    until: float | _Phase | Callable[[Simulation], bool] | None = None,
-    figures: Callable[[Simulation], Mapping[str, object]] | None = None,
-    processes: int = 1,
-) -> list[dict[str, Any]]: ...
 
 class InputError(ValueError): ...
 class FileError(OSError): ...
@@ -41,6 +27,7 @@ class StepError(RuntimeError):
     outcome: str
 
 class Contact:
+    def __init__(self, *args: NoReturn, **kwargs: NoReturn) -> None: ...
     @property
     def spline_a(self) -> float: ...
     @property
@@ -83,6 +70,7 @@ class Command:
     ) -> None: ...
 
 class Control:
+    def __init__(self, *args: NoReturn, **kwargs: NoReturn) -> None: ...
     clamp_head: bool
     tip_rate: float
     commands: list[Command]
@@ -105,7 +93,6 @@ class Control:
     def clear(self) -> None: ...
 
 class Simulation:
-    memory: _Array
     def __init__(
         self,
         scene: str | PathLike[str] = "table1",
@@ -117,10 +104,13 @@ class Simulation:
         force: bool = False,
     ) -> None: ...
     def step(self, control: Control | None = None) -> None: ...
-    def run(self, until: float | _Phase | Callable[[Simulation], bool] | None = None) -> Simulation: ...
+    def run(self, until: _Until = None) -> Simulation: ...
+    def set_state(self, q: ArrayLike, qdot: ArrayLike) -> None: ...
     def close(self) -> None: ...
     def copy(self, law: _Law | None = None, *, set: Mapping[str, object] = ...) -> Simulation: ...
     def control(self) -> Control: ...
+    def mass_matrix(self) -> _Array: ...
+    def jacobian(self, body: int, point: ArrayLike = ...) -> _Array: ...
     def __enter__(self) -> Simulation: ...
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -133,6 +123,22 @@ class Simulation:
     def position(self) -> _Array: ...
     @property
     def velocity(self) -> _Array: ...
+    @property
+    def orientation(self) -> _Array: ...
+    @property
+    def lengths(self) -> _Array: ...
+    @property
+    def radii(self) -> _Array: ...
+    @property
+    def limits(self) -> _Array: ...
+    @property
+    def stiffness(self) -> _Array: ...
+    @property
+    def damping(self) -> _Array: ...
+    @property
+    def memory(self) -> _Array: ...
+    @memory.setter
+    def memory(self, numbers: ArrayLike) -> None: ...
     @property
     def forces(self) -> dict[str, _Array]: ...
     @property
