@@ -391,7 +391,7 @@ def tutorial(folder: Path) -> list[dict]:
 
 def ranges(folder: Path) -> list[dict]:
     """Torques by the rigidity that is assumed, as the tutorial measures them."""
-    return tables.read_csv(folder / "tutorial/out/film/range.csv", [])
+    return tables.read_csv(folder / "tutorial/range.csv", [])
 
 
 PARTS = forms, runs, damaged, tutorial, ranges
