@@ -190,10 +190,9 @@ Film read_film(const std::string& file, const FilmReading& reading) {
   film.format = table.format;
   film.length_known = table.by_arc;
   // Axes in space are what they are: y turned alone would make the mirror image.
-  const bool down = table.pixels && table.planar ? !reading.y_up : reading.y_down;
-  if (down)
-    film.turned =
-        table.pixels && table.planar ? "y runs down, as rows of images do" : "y runs down";
+  const bool picture = table.pixels && table.planar;
+  const bool down = picture ? !reading.y_up : reading.y_down;
+  if (down) film.turned = picture ? "y runs down, as rows of images do" : "y runs down";
 
   std::vector<double> numbers;
   for (const FilmPoint& point : table.points) numbers.push_back(point.number);
