@@ -25,6 +25,8 @@ constexpr double least_ratio = 0.7, most_ratio = 1.15;
 constexpr double compared_apart = 0.06, corners_from = 0.1;
 /// Points whose distances from one number to the next differ by no more are even.
 constexpr double even_share = 0.1, even_errors = 4;
+/// Of an animal's length, what its points may span: noise makes their way longer.
+constexpr double most_of_length = 1.1;
 /// Of the body between two points, rad: more is noise.
 constexpr double most_turn = 2;
 
@@ -80,8 +82,9 @@ std::vector<double> ways_of(const Eigen::Matrix3Xd& points) {
   return ways;
 }
 
-/// Where each number lies along the body: even, or as far apart as the points are.
-std::vector<double> places_of(const std::vector<double>& numbers, const FilmTable& table) {
+/// Ways from the first number to each, in the film's unit: even, or as far apart as the points are.
+/// The last is 0 where no midline has two neighbours.
+std::vector<double> ways_to(const std::vector<double>& numbers, const FilmTable& table) {
   const std::size_t n = numbers.size();
   std::vector<std::vector<double>> way(n - 1);
   for (std::size_t k = 0; k < table.points.size();) {
@@ -97,17 +100,16 @@ std::vector<double> places_of(const std::vector<double>& numbers, const FilmTabl
       if (std::isfinite(ways[i])) way[i].push_back(ways[i]);
     }
   }
-  std::vector<double> even(n), by_way{0}, middle;
-  for (std::size_t k = 0; k < n; ++k) even[k] = static_cast<double>(k) / static_cast<double>(n - 1);
+  std::vector<double> middle;
+  double known = 0, sum = 0;
   for (std::vector<double>& ways : way) {
-    if (ways.empty()) return even;
-    middle.push_back(quantile(ways, 0.5));
-    by_way.push_back(by_way.back() + middle.back());
+    middle.push_back(ways.empty() ? 0 : quantile(ways, 0.5));
+    known += ways.empty() ? 0 : 1;
+    sum += middle.back();
   }
-  const double mean_way = by_way.back() / static_cast<double>(n - 1);
-  if (!(mean_way > 0)) return even;
+  const double mean_way = known > 0 ? sum / known : 0;
   bool uneven = false;
-  for (std::size_t i = 0; i + 1 < n; ++i) {
+  for (std::size_t i = 0; i + 1 < n && known == static_cast<double>(n - 1); ++i) {
     const double off = std::abs(middle[i] - mean_way);
     for (double& w : way[i]) w = std::abs(w - middle[i]);
     // Of a median, from the median of what is off it.
@@ -115,9 +117,36 @@ std::vector<double> places_of(const std::vector<double>& numbers, const FilmTabl
         1.9 * quantile(way[i], 0.5) / std::sqrt(static_cast<double>(way[i].size()));
     uneven = uneven || (off > even_share * mean_way && off > even_errors * error);
   }
-  if (!uneven) return even;
-  for (double& place : by_way) place /= by_way.back();
-  return by_way;
+  std::vector<double> to{0};
+  for (const double next : middle) to.push_back(to.back() + (uneven ? next : mean_way));
+  return to;
+}
+
+/// Where each number lies along the body, as a share of it.
+std::vector<double> places_of(const std::string& file, const std::vector<double>& numbers,
+                              const FilmTable& table, const FilmReading& reading) {
+  std::vector<double> places = ways_to(numbers, table);
+  const double span = places.back();
+  double length = span;
+  if (reading.length > 0 || reading.first > 0) {
+    if (table.unit != "cm") {
+      throw_input_error(file +
+                        ": --animal-length and --first-point are in cm: needs --scale or --unit");
+    }
+    length = reading.length > 0 ? reading.length : reading.first + span;
+    if (!(span > 0) || reading.first + span > most_of_length * length) {
+      throw_input_error(fmt::format(
+          "{}: its points span {:.3g} cm from {:g} cm on: check --animal-length, --first-point, "
+          "--scale and --unit",
+          file, span, reading.first));
+    }
+    length = std::max(length, reading.first + span);
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    places[k] = span > 0 ? (reading.first + places[k]) / length
+                         : static_cast<double>(k) / static_cast<double>(places.size() - 1);
+  }
+  return places;
 }
 
 /// Distances of points about `compared_apart` of the body apart, over that, and how far that is.
@@ -160,8 +189,10 @@ Film read_film(const std::string& file, const FilmReading& reading) {
   film.unit = table.unit;
   film.format = table.format;
   film.length_known = table.by_arc;
-  const bool down = table.pixels ? !reading.y_up : reading.y_down;
-  if (down) film.turned = table.pixels ? "y runs down, as rows of images do" : "y runs down";
+  // Axes in space are what they are: y turned alone would make the mirror image.
+  const bool picture = table.pixels && table.planar;
+  const bool down = picture ? !reading.y_up : reading.y_down;
+  if (down) film.turned = picture ? "y runs down, as rows of images do" : "y runs down";
 
   std::vector<double> numbers;
   for (const FilmPoint& point : table.points) numbers.push_back(point.number);
@@ -172,16 +203,16 @@ Film read_film(const std::string& file, const FilmReading& reading) {
   }
   std::vector<double> places;
   if (table.by_arc) {
+    if (table.unit != "cm" && reading.length > 0) fail("--animal-length is in cm: needs --scale");
     if (numbers.front() < 0) fail("s is below 0");
     film.length = reading.length > 0 ? reading.length : numbers.back();
     if (numbers.back() > film.length * (1 + 1e-9)) {
       fail(fmt::format("s = {:g} cm is past --animal-length {:g}", numbers.back(), film.length));
     }
     for (const double s : numbers) places.push_back(std::min(s / film.length, 1.0));
-  } else if (reading.length > 0) {
-    fail("--animal-length needs a column s_cm, which this film does not have");
+    if (reading.first > 0) fail("--first-point is for numbered points: here s says where each is");
   } else {
-    places = places_of(numbers, table);
+    places = places_of(file, numbers, table, reading);
   }
   std::size_t most = 0, rows = 0;
   for (std::size_t k = 0; k < table.points.size();) {

@@ -30,9 +30,11 @@ struct Film {
 /// How a film is to be read.
 struct FilmReading {
   double pixels_per_cm = 0;  ///< scale of columns in px; 0 where not given
+  double unit_cm = 0;        ///< cm in the unit of columns that name none; 0 where not given
   double fps = 0;            ///< frame rate of films that count frames; 0 where not given
   double likelihood = 0.6;   ///< points that their tracker is less sure of are missing
-  double length = 0;         ///< length of the film's animal, cm; 0: its last s is its tail
+  double length = 0;         ///< length of the film's animal, cm; 0: its last point is its tail
+  double first = 0;          ///< way from the tip of the head to the first of numbered points, cm
   std::string individual;    ///< the one to read in films of several
   bool y_up = false;         ///< columns in px have y up: else it runs down, as rows of images do
   bool y_down = false;       ///< columns in a unit of length have y down
@@ -41,13 +43,14 @@ struct FilmReading {
 /// Reads midlines as they come: a table with a row for each time and point (`time_s` or `frame`;
 /// `s_cm` or `point`; `x_cm`, `y_cm`, perhaps `z_cm`, or _mm, _m, _px; perhaps `likelihood`,
 /// `individual`), with a row for each time ("X NAME", "Y NAME", as EthoVision writes them),
-/// DeepLabCut's CSV, SLEAP's analysis HDF5. Commas, semicolons or tabs; decimal points or commas;
+/// DeepLabCut's CSV, DLTdv's xyzpts.csv, Anipose's CSV ("NAME_x", "NAME_y", "NAME_z"; rows are
+/// frames), SLEAP's analysis HDF5. Commas, semicolons or tabs; decimal points or commas;
 /// rows in any order. Empty cells and words such as NaN are missing, and so are points below the
 /// likelihood. A point is where its s or its number says; numbers are even from head to tail, or as
-/// far apart as the points are. Throws InputError, one line, for what it cannot read so: columns,
-/// units or times that are missing, what is no number, one point twice with other numbers, points
-/// farther apart than s says, fewer than two midlines or five points; FileError where the file
-/// cannot be read.
+/// far apart as the points are. y is turned in pictures of one camera alone. Throws InputError, one
+/// line, for what it cannot read so: columns, units or times that are missing, names found twice,
+/// what is no number, one point twice with other numbers, points farther apart than s says, fewer
+/// than two midlines or five points; FileError where the file cannot be read.
 Film read_film(const std::string& file, const FilmReading& reading);
 
 }  // namespace hagfish

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/input/input_error.hpp"
 #include "experiments/film/fit/film_curve.hpp"
 
 namespace hagfish {
@@ -23,13 +25,15 @@ constexpr std::size_t least_common = 3;
 constexpr double jump_times = 6, jump_share = 0.04;
 /// What follows a frozen film is so many times the usual change off it.
 constexpr double thaw_times = 3;
-/// A midline is turned round where it is that far off the one before, of the body, and is nearer by
-/// this factor then, and not much farther than midlines usually are.
-constexpr double turned_far = 0.05, turned_nearer = 0.6, turned_change = 3, turned_noise = 0.01;
+/// Two midlines are turned the other way round where they are nearer so, by this much of the body
+/// and by this factor.
+constexpr double turned_by = 0.05, turned_nearer = 0.6;
 /// Nodes of a curve between edges that cross: fewer are noise.
 constexpr Eigen::Index crossing_apart = 4;
 /// Of the interval between midlines: what is longer is a gap.
 constexpr double gap_times = 2.5;
+/// Of the same: what is longer is a fault of the clock, and a program over it would take hours.
+constexpr double jump_of_clock = 1000;
 
 double median_or_zero(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -181,47 +185,78 @@ void drop_repeats(Film& film, FilmRemarks& remarks) {
   std::erase_if(film.frames, [&](const FilmFrame&) { return dropped[f++]; });
 }
 
-FilmFrame turned_round(const FilmFrame& frame) {
+/// A midline whose points are numbered from the other end; `ends` is the sum of the film's first
+/// and last place, which need not be the animal's tips.
+FilmFrame turned_round(const FilmFrame& frame, double ends) {
   FilmFrame out{frame.time, {}, frame.point.rowwise().reverse()};
   for (auto place = frame.place.rbegin(); place != frame.place.rend(); ++place) {
-    out.place.push_back(1 - *place);
+    out.place.push_back(std::clamp(ends - *place, 0.0, 1.0));
   }
   return out;
 }
 
+/// Which of the midlines [first, end) run the other way round than the first. Each is held against
+/// the two before it, and all are decided at once, so that one of them turns no others: the least
+/// sum of distances over all ways of turning (Viterbi's path; a state is the turns of two in a
+/// row).
+std::vector<bool> turns_of(const std::vector<Eigen::Matrix3Xd>& curves, std::size_t first,
+                           std::size_t end, double length) {
+  using Costs = std::array<double, 4>;  // by 2 * (turn of the one before) + turn
+  const auto cost = [&](std::size_t a, std::size_t b, bool other) {
+    if (!other) return apart(curves[a], curves[b]);
+    const double round = apart(curves[a], curves[b].rowwise().reverse());
+    return std::max(round + turned_by * length, round / turned_nearer);
+  };
+  Costs costs = {0, INFINITY, INFINITY, INFINITY};
+  std::vector<std::array<bool, 4>> earlier(end - first);  // the better turn of the last but two
+  for (std::size_t f = first + 1; f < end; ++f) {
+    std::array<double, 2> near, far{};
+    for (const bool other : {false, true}) {
+      near[other] = cost(f - 1, f, other);
+      if (f > first + 1) far[other] = cost(f - 2, f, other);
+    }
+    Costs next;
+    for (std::size_t to = 0; to < next.size(); ++to) {
+      const bool before = (to & 2) != 0, now = (to & 1) != 0;
+      std::array<double, 2> by;
+      for (const bool last : {false, true}) {
+        by[last] = costs[2 * last + before] + near[before != now] + far[last != now];
+      }
+      earlier[f - first][to] = by[1] < by[0];
+      next[to] = std::min(by[0], by[1]);
+    }
+    costs = next;
+  }
+  std::vector<bool> turned(end - first);
+  auto state = static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin());
+  for (std::size_t k = end - first; k-- > 0;) {
+    turned[k] = (state & 1) != 0;
+    state = (state >> 1) + 2 * static_cast<std::size_t>(earlier[k][state]);
+  }
+  return turned;
+}
+
 void turn_round(Film& film, FilmRemarks& remarks) {
-  std::vector<Eigen::Matrix3Xd> curves = curves_of(film);
+  const std::vector<Eigen::Matrix3Xd> curves = curves_of(film);
   const double usual = usual_interval(film);
-  std::vector<double> changes;
-  for (std::size_t f = 1; f < curves.size(); ++f)
-    changes.push_back(apart(curves[f - 1], curves[f]));
-  const double near = turned_change * median_or_zero(changes) + turned_noise * film.length;
-  std::vector<bool> turned(curves.size(), false);
-  std::size_t first = 0;  // of midlines that follow each other without a gap
+  double head = 1, tail = 0;
+  for (const FilmFrame& frame : film.frames) {
+    head = std::min(head, frame.place.front());
+    tail = std::max(tail, frame.place.back());
+  }
   std::vector<double> times;
-  const auto end_row = [&](std::size_t end) {
-    const auto begin = turned.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto last = turned.begin() + static_cast<std::ptrdiff_t>(end);
-    const bool most = 2 * std::count(begin, last, true) > last - begin;
+  for (std::size_t first = 0, end = 0; first < curves.size(); first = end) {
+    for (end = first + 1; end < curves.size(); ++end) {  // midlines without a gap between them
+      if (film.frames[end].time - film.frames[end - 1].time > 2 * gap_times * usual) break;
+    }
+    const std::vector<bool> turned = turns_of(curves, first, end, film.length);
+    const bool most = 2 * std::ranges::count(turned, true) > std::ssize(turned);
     for (std::size_t f = first; f < end; ++f) {
-      if (turned[f] == most) continue;
-      film.frames[f] = turned_round(film.frames[f]);
+      if (turned[f - first] == most) continue;
+      film.frames[f] = turned_round(film.frames[f], head + tail);
       times.push_back(film.frames[f].time);
     }
-    first = end;
-  };
-  for (std::size_t f = 1; f < curves.size(); ++f) {
-    if (film.frames[f].time - film.frames[f - 1].time > 2 * gap_times * usual) {
-      end_row(f);
-      continue;
-    }
-    const double as_is = apart(curves[f - 1], curves[f]);
-    const double round = apart(curves[f - 1], curves[f].rowwise().reverse());
-    const bool other =
-        round < std::min(near, turned_nearer * as_is) && as_is > turned_far * film.length;
-    turned[f] = turned[f - 1] != other;
   }
-  end_row(curves.size());
   if (!times.empty()) {
     remarks.told.push_back(
         fmt::format("head and tail are exchanged in {} midlines ({} s): turned "
@@ -312,6 +347,17 @@ std::string times_text(const std::vector<double>& times) {
   }
   if (times.size() > shown) text += fmt::format(" and {} more", times.size() - shown);
   return text;
+}
+
+void refuse_jumps(const Film& film) {
+  const double usual = usual_interval(film);
+  for (const auto& [from, to] : gaps(film)) {
+    if (to - from < jump_of_clock * usual) continue;
+    throw InputError(fmt::format(
+        "its clock goes on from {:g} to {:g} s in one step, where {:g} s are usual: mend "
+        "the times, or read up to there by --until {:g}",
+        from, to, usual, from));
+  }
 }
 
 std::vector<std::pair<double, double>> gaps(const Film& film) {

@@ -24,6 +24,10 @@ FilmRemarks tidy(Film& film);
 /// Median time from one midline to the next, s.
 double usual_interval(const Film& film);
 
+/// Throws InputError, without the file's name, where the film's clock jumps: a step in time of a
+/// thousand usual ones and more, which nobody filmed.
+void refuse_jumps(const Film& film);
+
 /// Intervals without midlines, [from, to], s of the film: far longer than from one to the next.
 std::vector<std::pair<double, double>> gaps(const Film& film);
 

@@ -47,6 +47,14 @@ struct LengthColumn {
   bool pixels = false;
 };
 
+/// Columns of one point in a table with a row for each time.
+struct PointColumns {
+  std::string name;
+  LengthColumn x, y;
+  std::optional<LengthColumn> z;
+  std::optional<std::size_t> likelihood;
+};
+
 /// The rows of a table, read by the columns that its heading names.
 class TableReader {
  public:
@@ -63,11 +71,15 @@ class TableReader {
       wide(header_rows(), true);
     } else {
       name_columns(0);
-      const bool is_wide = std::ranges::any_of(names_, [](const std::string& name) {
+      const bool spaced = std::ranges::any_of(names_, [](const std::string& name) {
         return name.starts_with("x ") && !name.starts_with("x (");
       });
-      if (is_wide) {
+      const bool joined =
+          std::ranges::any_of(names_, [](const std::string& name) { return name.ends_with("_x"); });
+      if (spaced) {
         wide(1, false);
+      } else if (joined) {
+        triangulated();
       } else {
         tall();
       }
@@ -86,6 +98,9 @@ class TableReader {
   std::optional<std::size_t> column(const std::string& name) const {
     const auto at = std::ranges::find(names_, name);
     if (at == names_.end()) return std::nullopt;
+    if (std::find(at + 1, names_.end(), name) != names_.end()) {
+      fail("column " + name + ": its heading has this name twice");
+    }
     return static_cast<std::size_t>(at - names_.begin());
   }
   [[noreturn]] void lacks(const std::string& name) const {
@@ -120,18 +135,26 @@ class TableReader {
     return !(number(row, *likelihood, "likelihood") >= reading_.likelihood);
   }
 
-  /// `name` with a unit of length behind it; nothing where it has none such.
+  /// `name` with a unit of length behind it, or with that of --unit; nothing where there is none.
   std::optional<LengthColumn> length(const std::string& name) {
-    for (const auto& [unit, cm] : {std::pair{"cm", 1.0}, {"mm", 0.1}, {"m", 100.0}}) {
+    std::vector<LengthColumn> found;
+    for (const auto& [unit, cm] : {std::pair{"cm", 1.0}, {"mm", 0.1}, {"m", 100.0}, {"px", 1.0}}) {
       for (const std::string& full : {name + "_" + unit, name + " (" + unit + ")"}) {
-        if (const auto at = column(full)) return LengthColumn{*at, cm, false};
+        if (const auto at = column(full))
+          found.push_back({*at, cm, std::string_view(unit) == "px"});
       }
     }
-    for (const std::string& full : {name + "_px", name + " (px)"}) {
-      if (const auto at = column(full)) return LengthColumn{*at, 1, true};
+    if (const auto at = column(name)) {
+      if (reading_.unit_cm <= 0) {
+        fail("column " + name + ": has no unit: " + name + "_cm, _mm, _m or _px, or give --unit");
+      }
+      found.push_back({*at, reading_.unit_cm, false});
     }
-    if (column(name)) fail("column " + name + ": has no unit: " + name + "_cm, _mm, _m or _px");
-    return std::nullopt;
+    if (found.size() > 1) {
+      fail(fmt::format("columns {} and {}: both have {}: leave one", names_[found[0].column],
+                       names_[found[1].column], name));
+    }
+    return found.empty() ? std::nullopt : std::optional(found[0]);
   }
   LengthColumn needed_length(const std::string& name) {
     const auto column = length(name);
@@ -139,25 +162,35 @@ class TableReader {
     return *column;
   }
 
-  /// Where the time is: in s, or as a frame to be counted.
+  /// A column whose unit is that of --unit, or px.
+  LengthColumn without_unit(std::size_t column) const {
+    if (reading_.unit_cm > 0) return {column, reading_.unit_cm, false};
+    return {column, 1, true};
+  }
+
+  /// Where the time is: in s, or as a frame to be counted; rows are the frames where there is none.
   struct Clock {
-    std::size_t column = 0;
+    std::optional<std::size_t> column;
     bool frames = false;
   };
-  Clock clock() const {
+  Clock clock(bool rows_count = false) const {
     for (const char* name : {"time_s", "time (s)", "trial time (s)", "recording time (s)"}) {
-      if (const auto at = column(name)) return {*at, false};
+      if (const auto at = column(name)) return {at, false};
     }
-    if (const auto at = column("frame")) return {*at, true};
-    lacks("time_s");
+    for (const char* name : {"frame", "fnum"}) {
+      if (const auto at = column(name)) return {at, true};
+    }
+    if (!rows_count) lacks("time_s");
+    return {{}, true};
   }
-  double time(std::size_t row, const Clock& clock) const {
-    const double at = needed(row, clock.column, clock.frames ? "frame" : "time_s");
+  double time(std::size_t row, std::size_t first, const Clock& clock) const {
+    const double at = clock.column ? needed(row, *clock.column, clock.frames ? "frame" : "time_s")
+                                   : static_cast<double>(row - first);
     return clock.frames ? frame_time(file_, reading_, at) : at;
   }
 
   /// Sizes of px in the table's unit, once all columns are known.
-  void settle_units(std::initializer_list<LengthColumn*> columns, const LengthColumn* arc) {
+  void settle_units(const std::vector<LengthColumn*>& columns, const LengthColumn* arc) {
     bool any = false, all = true;
     for (const LengthColumn* column : columns) (column->pixels ? any : all) = column->pixels;
     table_.pixels = any;
@@ -172,6 +205,30 @@ class TableReader {
     }
   }
 
+  /// The rows from `first` on, each of a time; points are numbered as they stand.
+  void read_rows(std::size_t first, const Clock& clock, std::vector<PointColumns> points) {
+    std::vector<LengthColumn*> columns;
+    for (PointColumns& p : points) {
+      columns.insert(columns.end(), {&p.x, &p.y});
+      if (p.z) columns.push_back(&*p.z);
+      table_.planar = table_.planar && !p.z;
+    }
+    settle_units(columns, nullptr);
+    for (std::size_t row = first; row < text_.rows(); ++row) {
+      const double at = time(row, first, clock);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const PointColumns& p = points[k];
+        const auto coordinate = [&](const LengthColumn& from) {
+          return from.size * number(row, from.column, p.name);
+        };
+        Eigen::Vector3d place(coordinate(p.x), coordinate(p.y), table_.planar ? 0 : missing);
+        if (p.z) place.z() = coordinate(*p.z);
+        if (unsure(row, p.likelihood) || !place.allFinite()) place.setConstant(missing);
+        table_.points.push_back({at, static_cast<double>(k + 1), place});
+      }
+    }
+  }
+
   /// A row for each time and point.
   void tall() {
     const Clock clock = this->clock();
@@ -180,11 +237,9 @@ class TableReader {
     if (!arc && !point) lacks("s_cm or point");
     LengthColumn x = needed_length("x"), y = needed_length("y");
     std::optional<LengthColumn> z = length("z");
-    if (z) {
-      settle_units({&x, &y, &*z}, arc ? &*arc : nullptr);
-    } else {
-      settle_units({&x, &y}, arc ? &*arc : nullptr);
-    }
+    std::vector<LengthColumn*> columns{&x, &y};
+    if (z) columns.push_back(&*z);
+    settle_units(columns, arc ? &*arc : nullptr);
     if (arc && arc->pixels) {
       if (!table_.pixels && reading_.pixels_per_cm <= 0) fail("s_px: pixels need --scale, px/cm");
       arc->size = pixel_size(reading_, table_.unit);
@@ -199,7 +254,7 @@ class TableReader {
     for (std::size_t row = 1; row < text_.rows(); ++row) {
       if (who && text_.cell(row, *who) != individual_) continue;
       FilmPoint at;
-      at.time = time(row, clock);
+      at.time = time(row, 1, clock);
       at.number = arc ? arc->size * needed(row, arc->column, "s") : needed(row, *point, "point");
       const bool unsure = this->unsure(row, likelihood);
       at.place = {x.size * number(row, x.column, "x"), y.size * number(row, y.column, "y"),
@@ -244,37 +299,38 @@ class TableReader {
         if (!unit.empty()) names_[k] += " (" + unit + ")";
       }
     }
-    struct Point {
-      LengthColumn x, y;
-      std::optional<LengthColumn> z;
-    };
-    std::vector<Point> points;
-    table_.planar = true;
-    for (std::size_t k = 0; k < names_.size(); ++k) {
-      if (!names_[k].starts_with("x ")) continue;
-      const std::string name = names_[k].substr(2, names_[k].find(" (") - 2);
-      Point point{needed_length("x " + name), needed_length("y " + name), length("z " + name)};
-      if (point.z) {
-        settle_units({&point.x, &point.y, &*point.z}, nullptr);
-        table_.planar = false;
-      } else {
-        settle_units({&point.x, &point.y}, nullptr);
-      }
-      points.push_back(point);
+    std::vector<PointColumns> points;
+    for (const std::string& full : names_) {
+      if (!full.starts_with("x ")) continue;
+      const std::string name = full.substr(2, full.find(" (") - 2);
+      points.push_back(
+          {name, needed_length("x " + name), needed_length("y " + name), length("z " + name), {}});
     }
-    const Clock clock = this->clock();
     table_.format = units ? "EthoVision's export" : "a row for each time";
-    for (std::size_t row = header; row < text_.rows(); ++row) {
-      const double at = time(row, clock);
-      for (std::size_t k = 0; k < points.size(); ++k) {
-        const Point& p = points[k];
-        Eigen::Vector3d place(p.x.size * number(row, p.x.column, names_[p.x.column]),
-                              p.y.size * number(row, p.y.column, names_[p.y.column]), 0);
-        if (p.z) place.z() = p.z->size * number(row, p.z->column, names_[p.z->column]);
-        if (!place.allFinite()) place.setConstant(missing);
-        table_.points.push_back({at, static_cast<double>(k + 1), place});
+    read_rows(header, clock(), std::move(points));
+  }
+
+  /// A row for each frame: columns NAME_x, NAME_y, NAME_z of each point, head to tail, as DLTdv and
+  /// Anipose write them.
+  void triangulated() {
+    std::vector<PointColumns> points;
+    for (const std::string& full : names_) {
+      if (!full.ends_with("_x")) continue;
+      const std::string name = full.substr(0, full.size() - 2);
+      if (name.find("_cam") != name.npos) {
+        fail("column " + full +
+             ": is of one of several cameras: give the file that has x, y and z, "
+             "of DLTdv ...xyzpts.csv");
       }
+      const auto x = column(full), y = column(name + "_y"), z = column(name + "_z");
+      if (!y) lacks(name + "_y");
+      points.push_back({name, without_unit(*x), without_unit(*y), {}, column(name + "_score")});
+      if (!z) continue;
+      ask_unit(file_, reading_);
+      points.back().z = without_unit(*z);
     }
+    table_.format = "a row for each frame, as DLTdv and Anipose write it";
+    read_rows(1, clock(true), std::move(points));
   }
 
   /// Three or four rows of heading: scorer, perhaps individuals, bodyparts, coords.
@@ -311,26 +367,21 @@ class TableReader {
         fail(fmt::format("bodypart {}: coords {}: must be x, y, z or likelihood", shortened(name),
                          shortened(std::string(text_.cell(row + 1, k)))));
       }
-      part->column[static_cast<std::size_t>(coord - coords.begin())] = k;
+      auto& column = part->column[static_cast<std::size_t>(coord - coords.begin())];
+      if (column) fail(fmt::format("bodypart {}: has {} twice", shortened(name), *coord));
+      column = k;
     }
     table_.format = "DeepLabCut's CSV";
-    table_.pixels = true;
-    const double px = pixel_size(reading_, table_.unit);
+    std::vector<PointColumns> points;
     for (const Part& part : parts) {
-      if (!part.column[0] || !part.column[1]) fail(part.name + ": has no x and y");
-      if (part.column[2]) table_.planar = false;
+      const auto& [x, y, z, likelihood] = part.column;
+      if (!x || !y) fail(part.name + ": has no x and y");
+      points.push_back({part.name, without_unit(*x), without_unit(*y), {}, likelihood});
+      if (!z) continue;
+      ask_unit(file_, reading_);
+      points.back().z = without_unit(*z);
     }
-    for (std::size_t r = row + 2; r < text_.rows(); ++r) {
-      const double at = frame_time(file_, reading_, needed(r, 0, "frame"));
-      for (std::size_t k = 0; k < parts.size(); ++k) {
-        const auto& column = parts[k].column;
-        Eigen::Vector3d place(number(r, *column[0], parts[k].name),
-                              number(r, *column[1], parts[k].name), 0);
-        if (!table_.planar) place.z() = column[2] ? number(r, *column[2], parts[k].name) : missing;
-        if (unsure(r, column[3]) || !place.allFinite()) place.setConstant(missing);
-        table_.points.push_back({at, static_cast<double>(k + 1), px * place});
-      }
-    }
+    read_rows(row + 2, {0, true}, std::move(points));
   }
 
   DelimitedText text_;
@@ -368,6 +419,9 @@ std::size_t chosen_individual(const std::string& file, const std::vector<std::st
     throw_input_error(fmt::format("{}: --individual {}: must be one of {}", file, shortened(asked),
                                   shortened(known)));
   }
+  if (std::find(at + 1, names.end(), asked) != names.end()) {
+    throw_input_error(fmt::format("{}: has two animals of the name {}", file, shortened(asked)));
+  }
   return static_cast<std::size_t>(at - names.begin());
 }
 
@@ -375,6 +429,11 @@ double frame_time(const std::string& file, const FilmReading& reading, double fr
   if (!(reading.fps > 0))
     throw_input_error(file + ": gives time as frames: needs --fps, frames a second");
   return frame / reading.fps;
+}
+
+void ask_unit(const std::string& file, const FilmReading& reading) {
+  if (reading.unit_cm > 0 || reading.pixels_per_cm > 0) return;
+  throw_input_error(file + ": has x, y and z but names no unit: needs --unit cm, mm or m");
 }
 
 double pixel_size(const FilmReading& reading, std::string& unit) {

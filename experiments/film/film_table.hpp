@@ -29,8 +29,9 @@ struct FilmTable {
 /// Throws as read_film().
 FilmTable read_film_table(const std::string& file, const FilmReading& reading);
 
-/// SLEAP's analysis HDF5: `tracks` (individuals x 2 x points x frames), `node_names`, `track_names`
-/// and `point_scores`. Throws as read_film().
+/// SLEAP's analysis HDF5: `tracks`, `track_names` and `point_scores`, or sleap-anipose's. The axes
+/// of `tracks` are those that its attribute `dims` or `Description` names, else individuals x 2 (or
+/// 3) x points x frames. Throws as read_film().
 FilmTable read_sleap(const std::string& file, const FilmReading& reading);
 
 /// Index of the individual `asked` for, or of the only one. Throws InputError where there is none.
@@ -39,6 +40,9 @@ std::size_t chosen_individual(const std::string& file, const std::vector<std::st
 
 /// The time of a film's frame, s. Throws InputError where there is no --fps.
 double frame_time(const std::string& file, const FilmReading& reading, double frame);
+
+/// Throws InputError where nothing says the unit of a file in space: neither --unit nor --scale.
+void ask_unit(const std::string& file, const FilmReading& reading);
 
 /// cm in a px, or 1 where nothing says it: then `unit` is px.
 double pixel_size(const FilmReading& reading, std::string& unit);

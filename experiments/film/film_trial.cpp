@@ -8,7 +8,6 @@
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/knot/writhe.hpp"
-#include "core/run/drive.hpp"
 #include "core/run/simulation.hpp"
 #include "core/scene/interpolation.hpp"
 #include "experiments/film/fit/film_rigid.hpp"
@@ -101,7 +100,7 @@ ResolvedScene scene_of_film(ResolvedScene base, const CurvatureProgram& program,
 }
 
 std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureProgram& program,
-                                     const FilmedKnot& knot) {
+                                     const FilmedKnot& knot, const Watcher& watch) {
   std::vector<FilmTrial> trials;
   int failed = 0;
   double stiffness = base.scene.active.stiffness;
@@ -127,7 +126,7 @@ std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureP
       const auto formed = [&] {
         return time_of(sim, scene) >= program.time.back() || sim.controller.phase != Phase::form;
       };
-      const Status end = drive(model, scene, sim, record, {compare}, formed);
+      const Status end = drive(model, scene, sim, record, {compare, watch}, formed);
       if (!end.ok() && end.outcome != Outcome::stopped) throw StepError(end);
       const Kinematics kin = kinematics(model, sim.now.state);
       trial.knot = knot_of(kin.centre, scene.knot);

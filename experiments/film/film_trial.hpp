@@ -7,6 +7,7 @@
 
 #include "core/chain/model.hpp"
 #include "core/input/files/scene_reader.hpp"
+#include "core/run/drive.hpp"
 
 namespace hagfish {
 
@@ -38,9 +39,10 @@ struct FilmTrial {
   double rms = 0;        ///< rms distance of the bodies' centres from the program's shapes, cm
 };
 
-/// Runs with the scene's stiffness and doubles of it, until two in a row do not last.
+/// Runs with the scene's stiffness and doubles of it, until two in a row do not last. `watch` sees
+/// each step.
 std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureProgram& program,
-                                     const FilmedKnot& knot);
+                                     const FilmedKnot& knot, const Watcher& watch);
 
 /// The one that ends with the film's knot and is nearest; of none such, the nearest that lasted.
 std::optional<FilmTrial> best_of(const std::vector<FilmTrial>& trials, const FilmedKnot& knot);

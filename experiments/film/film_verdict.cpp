@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hagfish {
 namespace {
@@ -16,6 +17,34 @@ constexpr double doubtful_share = 0.8, failed_share = 0.5;
 constexpr double far_times = 4, far_share = 0.01;
 /// Bends over the largest that a joint can have: the wall gives by this much.
 constexpr double past_limit = 1.02;
+/// Of an animal's length, what its points may make of it: tips that nobody digitised.
+constexpr double same_length = 0.1;
+/// A clamped head's tip moves by no more, of the body, in nine tenths of the film.
+constexpr double still_share = 0.03, most_of_film = 0.9;
+
+/// How far the first point is from where it usually is, the film's unit, in nine tenths of the
+/// film.
+double first_moves(const Film& film, double first_place) {
+  std::vector<Eigen::Vector3d> points;
+  for (const FilmFrame& frame : film.frames) {
+    if (frame.place.front() == first_place) points.push_back(frame.point.col(0));
+  }
+  const auto quantile = [](std::vector<double> values, double share) {
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, at);
+    return *at;
+  };
+  Eigen::Vector3d usual;
+  for (Eigen::Index d = 0; d < 3; ++d) {
+    std::vector<double> values;
+    for (const Eigen::Vector3d& point : points) values.push_back(point[d]);
+    usual[d] = quantile(values, 0.5);
+  }
+  std::vector<double> off;
+  for (const Eigen::Vector3d& point : points) off.push_back((point - usual).norm());
+  return quantile(off, most_of_film);
+}
 
 }  // namespace
 
@@ -25,12 +54,25 @@ const char* verdict_name(FilmVerdict verdict) {
                                             : "failed";
 }
 
-FilmJudgement judge(const Model& model, const Film& film, const FilmRemarks& remarks,
-                    const FilmFit& fit) {
+double animal_length(const Film& film, const FilmReading& reading) {
+  if (film.unit != "cm") return 0;
+  return film.length_known || reading.length == 0 ? film.length : reading.length;
+}
+
+FilmJudgement judge(const Model& model, const Film& film, const FilmReading& reading,
+                    const FilmRemarks& remarks, const FilmFit& fit, FilmHead head) {
   FilmJudgement out;
   const auto say = [&out](FilmVerdict at_least, const std::string& why) {
     out.verdict = std::max(out.verdict, at_least);
     out.why.push_back(why);
+  };
+  // What most often makes a film that does not fit.
+  const auto doubt_order = [&] {
+    if (out.why.empty()) {
+      say(FilmVerdict::doubtful,
+          "first, the order of the points: from head to tail, not from tail to head, and with p2 "
+          "after p1, where the alphabet has p10");
+    }
   };
   const double length = model.length();
   std::vector<double> sorted = fit.rms_at;
@@ -53,7 +95,29 @@ FilmJudgement judge(const Model& model, const Film& film, const FilmRemarks& rem
   out.worst_time = film.frames[worst].time;
   out.share_used = used / static_cast<double>(std::max<std::size_t>(film.expected, 1));
 
+  if (head == FilmHead::still) {
+    double place = 1;
+    for (const FilmFrame& frame : film.frames) place = std::min(place, frame.place.front());
+    const double moves = first_moves(film, place);
+    if (moves > (still_share + 2 * place) * film.length) {
+      doubt_order();
+      say(FilmVerdict::doubtful,
+          fmt::format("the first point moves by {:.2g} {}, though the head is taken as clamped: is "
+                      "it a head that the film never shows (--first-point), or one that is free "
+                      "(--free-head)?",
+                      moves, film.unit));
+    }
+  }
+  const double made = length / fit.scale, told = reading.length > 0 ? reading.length : length;
+  if (film.unit == "cm" && !film.length_known && std::abs(made / told - 1) > same_length) {
+    doubt_order();
+    say(FilmVerdict::doubtful,
+        fmt::format("the fit makes an animal of {:.3g} cm, and {} {:.3g} cm: check --scale, --unit "
+                    "and whether the film shows both ends (--animal-length, --first-point)",
+                    made, reading.length > 0 ? "--animal-length is" : "the scene's has", told));
+  }
   if (fit.rms > doubtful_rms * length) {
+    doubt_order();
     say(fit.rms > failed_rms * length ? FilmVerdict::failed : FilmVerdict::doubtful,
         fmt::format("points lie {:.2g} cm from the shapes, {:.2g} % of the body", fit.rms,
                     100 * fit.rms / length));

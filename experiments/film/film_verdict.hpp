@@ -23,9 +23,13 @@ struct FilmJudgement {
   double worst = 0, worst_time = 0;  ///< midline: rms, cm of the model, and when, s of the film
 };
 
-/// `film` as it was fitted, `remarks` what was taken out of it before.
-FilmJudgement judge(const Model& model, const Film& film, const FilmRemarks& remarks,
-                    const FilmFit& fit);
+/// `film` as it was read and fitted, `remarks` what was taken out of it before.
+FilmJudgement judge(const Model& model, const Film& film, const FilmReading& reading,
+                    const FilmRemarks& remarks, const FilmFit& fit, FilmHead head);
+
+/// Length of the film's animal, cm: by its s, as told, or as far as its points reach. 0 where
+/// nothing says the size of its px.
+double animal_length(const Film& film, const FilmReading& reading);
 
 /// "fitted", "doubtful", "failed".
 const char* verdict_name(FilmVerdict verdict);

@@ -3,16 +3,30 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "core/input/input_text.hpp"
 #include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 #include "experiments/program/shell_word.hpp"
 
 namespace hagfish {
+namespace {
+
+const std::map<std::string, double> units = {{"cm", 1}, {"mm", 0.1}, {"m", 100}};
+
+}  // namespace
 
 void add_film_options(CLI::App& command, FilmReading& reading) {
-  command.add_option("--scale", reading.pixels_per_cm, "pixels in a cm, for columns in px")
-      ->check(above_zero());
+  const auto scale =
+      command.add_option("--scale", reading.pixels_per_cm, "pixels in a cm, for columns in px")
+          ->check(above_zero());
+  command
+      .add_option_function<std::string>(
+          "--unit", [&reading](const std::string& unit) { reading.unit_cm = units.at(unit); },
+          "unit of coordinates that name none, as of points in space: cm, mm or m")
+      ->check(one_of({"cm", "mm", "m"}))
+      ->excludes(scale);
   command.add_option("--fps", reading.fps, "frames a second, for films that count frames")
       ->check(above_zero());
   command
@@ -22,24 +36,33 @@ void add_film_options(CLI::App& command, FilmReading& reading) {
       ->capture_default_str();
   command
       .add_option("--animal-length", reading.length,
-                  "of the film's animal, cm; where not given, its last s is its tail")
+                  "of the film's animal, cm; where not given, its last point is its tail")
+      ->check(above_zero());
+  command
+      .add_option("--first-point", reading.first,
+                  "way from the tip of the head to the first of numbered points, cm; where not "
+                  "given, 0")
       ->check(above_zero());
   command.add_option("--individual", reading.individual, "which animal of a film of several");
   const auto up = command.add_flag("--y-up", reading.y_up,
-                                   "y of columns in px runs up; else down, as rows of images do");
-  command.add_flag("--y-down", reading.y_down, "y of columns in cm, mm or m runs down; else up")
-      ->excludes(up);
+                                   "y of one camera's columns in px runs up; else down, as rows of "
+                                   "images do");
+  command.add_flag("--y-down", reading.y_down, "y of all others runs down; else up")->excludes(up);
 }
 
 std::string film_option_words(const FilmReading& reading) {
   const FilmReading usual;
   std::string words;
   if (reading.pixels_per_cm > 0) words += fmt::format(" --scale {:g}", reading.pixels_per_cm);
+  for (const auto& [unit, cm] : units) {
+    if (reading.unit_cm == cm) words += " --unit " + unit;
+  }
   if (reading.fps > 0) words += fmt::format(" --fps {:g}", reading.fps);
   if (reading.likelihood != usual.likelihood) {
     words += fmt::format(" --likelihood {:g}", reading.likelihood);
   }
   if (reading.length > 0) words += fmt::format(" --animal-length {:g}", reading.length);
+  if (reading.first > 0) words += fmt::format(" --first-point {:g}", reading.first);
   if (!reading.individual.empty()) words += " --individual " + shell_word(reading.individual);
   if (reading.y_up) words += " --y-up";
   if (reading.y_down) words += " --y-down";
@@ -53,11 +76,14 @@ std::string scaled(const Film& film, double scale) {
                                                   film.length, film.unit, scale * film.length);
 }
 
-std::string tail_note(const FilmReading& reading, const std::string& scaled) {
-  return scaled.empty() || reading.length > 0 ? ""
-                                              : "the last point is taken as the tip of the tail: "
-                                                "if the film never shows the tip, give "
-                                                "s_cm and --animal-length\n";
+std::string ends_note(const Film& film, const FilmReading& reading, const std::string& scaled) {
+  if (scaled.empty() || reading.length > 0) return "";
+  const bool head = !film.length_known && reading.first == 0;
+  return fmt::format(
+      "{}the last point is taken as the tip of the tail: if the film never shows {}, give "
+      "{}--animal-length\n",
+      head ? "the first point is taken as the tip of the head, and " : "",
+      head ? "them" : "the tip", head ? "--first-point and " : "");
 }
 
 std::string flat_note(const std::string& film) {

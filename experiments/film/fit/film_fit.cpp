@@ -39,8 +39,10 @@ std::vector<double> even(int count, double last) {
 
 class Fit {
  public:
-  Fit(const Model& model, const Film& film, FilmHead head, int times, int stations)
-      : model_(model),
+  Fit(const Model& model, const Film& film, FilmHead head, int times, int stations,
+      const std::function<void(int)>& watch)
+      : watch_(watch),
+        model_(model),
         film_(film),
         still_(head == FilmHead::still),
         scaled_(!film.length_known),
@@ -217,6 +219,7 @@ class Fit {
   bool descend() {
     double damping = 1e-4;
     for (int step = 0; step < steps; ++step) {
+      if (watch_) watch_(++taken_);
       const double before = assemble();
       for (;;) {
         if (damping > 1e8) return false;
@@ -375,6 +378,8 @@ class Fit {
     }
   }
 
+  const std::function<void(int)>& watch_;
+  int taken_ = 0;  // steps
   const Model& model_;
   const Film& film_;
   bool still_, scaled_;
@@ -393,11 +398,12 @@ class Fit {
 
 }  // namespace
 
-FilmFit fit_film(const Model& model, const Film& film, FilmHead head, int times, int stations) {
+FilmFit fit_film(const Model& model, const Film& film, FilmHead head, int times, int stations,
+                 const std::function<void(int)>& watch) {
   if (times < 2 || stations < 2 || stations > model.body_count() / 4) {
     throw std::invalid_argument("2 times, 2 stations to a quarter of the bodies");
   }
-  return Fit(model, film, head, times, stations).run();
+  return Fit(model, film, head, times, stations, watch).run();
 }
 
 }  // namespace hagfish

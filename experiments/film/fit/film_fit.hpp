@@ -2,6 +2,7 @@
 // knot.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/chain/model.hpp"
@@ -43,7 +44,9 @@ struct FilmFit {
 /// 73, 2017), so that they matter only where points do not tell. Twist, of which a midline says
 /// nothing, is 0. Levenberg and Marquardt's steps, until the gradient vanishes. Throws
 /// std::invalid_argument as fit_program(), and InputError, without the file's name, where no frame
-/// has points enough to begin with.
-FilmFit fit_film(const Model& model, const Film& film, FilmHead head, int times, int stations);
+/// has points enough to begin with. Calls `watch`, where there is one, at each step with their
+/// number so far.
+FilmFit fit_film(const Model& model, const Film& film, FilmHead head, int times, int stations,
+                 const std::function<void(int)>& watch = {});
 
 }  // namespace hagfish

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "experiments/common/scene_argument.hpp"
+#include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/film/film_trial.hpp"
 #include "experiments/film/film_verdict.hpp"
@@ -29,6 +31,13 @@ constexpr double program_interval = 0.05, frames_a_time = 1;
 constexpr int most_times = 1000;
 /// Longer programs are not run to find muscles that follow them, s.
 constexpr double longest_trial = 60;
+/// Of an animal's length: torques of one that differs by more differ by a fifth and more.
+constexpr double same_animal = 0.05;
+/// Rigidities that are known of hagfish, over the middle of them, which scenes have; the sources
+/// are in data/specimens/pacific_hagfish.toml.
+constexpr double least_rigidity = 0.15, most_rigidity = 6;
+/// Between lines that tell of long work, s.
+constexpr double told_each = 5;
 /// Exit code: no program has the film's shapes.
 constexpr int not_fitted = exit_code::wrong_knot;
 
@@ -39,6 +48,21 @@ struct MidlinesOptions {
   double until = 0;  ///< s; 0: to the film's end
   int stations = 20, times = 0;
   bool free_head = false, force = false;
+};
+
+/// Tells now and then how far long work is.
+class Work {
+ public:
+  template <class... Values>
+  void tell(fmt::format_string<Values...> format, Values&&... values) {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - told_;
+    if (since.count() < told_each) return;
+    told_ += std::chrono::duration_cast<std::chrono::steady_clock::duration>(since);
+    say("{}\n", fmt::format(format, std::forward<Values>(values)...));
+  }
+
+ private:
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
 };
 
 /// A program's CSV with two more columns, which no reader of programs minds.
@@ -103,7 +127,7 @@ std::string scene_text(const MidlinesOptions& options, const Model& model,
 
 /// Says which knot the film ends with, finds muscles that follow the program, and writes the scene.
 void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
-            const CurvatureProgram& program, TextFile& out) {
+            const CurvatureProgram& program, TextFile& out, Work& work) {
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   const FilmedKnot knot = knot_of(model, program, program.time.size() - 1, resolved.scene.knot);
   fmt::print("knot at the film's end: {}{}\n", knot.name == "0_1" ? "none" : knot.name,
@@ -114,16 +138,30 @@ void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
                printable(options.scene));
     return;
   }
+  const Scene& scene = resolved.scene;
+  const std::vector<double>& own = resolved.specimen.bending_stiffness;
+  fmt::print(
+      "torques are about in proportion to the rigidity EI, here {:g} dyn cm^2: of a hagfish it is "
+      "known to {:g} to {:g} times that, so run the film with both and give each torque's range\n",
+      scene.model.passive == PassiveSource::specimen && !own.empty()
+          ? own.front()
+          : scene.model.bending_stiffness,
+      least_rigidity, most_rigidity);
   if (program.time.back() > longest_trial) {
     fmt::print("not run: the program is longer than {:g} s\n", longest_trial);
   } else {
-    const std::optional<FilmTrial> best = best_of(try_stiffness(resolved, program, knot), knot);
+    const std::optional<FilmTrial> best = best_of(
+        try_stiffness(resolved, program, knot,
+                      [&](const StepRecord& step, const Simulation&) {
+                        work.tell("trial run: {:.1f} of {:g} s", step.time, program.time.back());
+                      }),
+        knot);
     if (best) {
       stiffness = best->stiffness;
       fmt::print(
-          "run by this program with active.stiffness = {:g}: {:.2g} cm from its shapes (rms), ends "
-          "with "
-          "{}{}\n",
+          "run by this program with active.stiffness = {:g} (a setting found by trying, no "
+          "property "
+          "of the animal): {:.2g} cm from its shapes (rms), ends with {}{}\n",
           stiffness, best->rms, best->knot.name == "0_1" ? "no knot" : "a " + best->knot.name,
           best->knot.name == knot.name && best->knot.hand == knot.hand
               ? ", as the film does"
@@ -160,22 +198,32 @@ int midlines(const MidlinesOptions& options) {
         options.until > 0 ? fmt::format(" up to {:g} s", options.until) : ""));
   }
   const int times = options.times > 0 ? options.times : times_of(film);
+  const FilmHead head = options.free_head ? FilmHead::free : FilmHead::still;
   FilmFit fit;
+  Work work;
   try {
-    fit = fit_film(model, film, options.free_head ? FilmHead::free : FilmHead::still, times,
-                   options.stations);
+    refuse_jumps(film);
+    fit = fit_film(model, film, head, times, options.stations,
+                   [&](int step) { work.tell("fit: step {}", step); });
   } catch (const InputError& error) {
     throw InputError(options.film + ": " + error.what());
   }
   if (!std::isfinite(fit.rms) || fit.error.empty()) {
     throw InputError(options.film + ": no shape fits its points: check units and scale");
   }
-  const FilmJudgement judgement = judge(model, film, remarks, fit);
+  const FilmJudgement judgement = judge(model, film, options.reading, remarks, fit, head);
   const std::string scale = scaled(film, fit.scale);
   fmt::print("{}: read as {}, {} midlines of {}{}{}\n{}", printable(options.film), film.format,
              film.frames.size(), film.planar ? "two dimensions" : "three dimensions",
              film.turned.empty() ? "" : ", " + film.turned, scale,
-             tail_note(options.reading, scale));
+             ends_note(film, options.reading, scale));
+  const double animal = animal_length(film, options.reading);
+  if (animal > 0 && std::abs(animal / model.length() - 1) > same_animal) {
+    fmt::print(
+        "its animal has {:.3g} cm, that of {} {:g} cm: torques will be of the latter; describe "
+        "yours by `hagfish specimen` and name the scene that it writes by --scene\n",
+        animal, printable(options.scene), model.length());
+  }
   for (const std::string& told : remarks.told) fmt::print("{}\n", told);
   for (const auto& [from, to] : gaps(film)) {
     fmt::print("no midlines from {:.4g} to {:.4g} s: filled in between\n", from, to);
@@ -197,7 +245,7 @@ int midlines(const MidlinesOptions& options) {
     return exit_code::done;
   }
   // As a run reads it, rounded.
-  run_by(options, resolved, read_curvature_csv(csv, options.out), scene_out);
+  run_by(options, resolved, read_curvature_csv(csv, options.out), scene_out, work);
   return exit_code::done;
 }
 

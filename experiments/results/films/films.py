@@ -230,7 +230,7 @@ def forms(folder: Path) -> list[dict]:
 # Runs as films ------------------------------------------------------------------------------------------------------
 
 def filmed(log: Path, until: float, seed: int, fps=30, points=50, pixels=25.0):
-    """A film of a log with a tracker's faults, in pixels with y down: its text, and the times at which head and tail are exchanged."""
+    """A film of a log with a tracker's faults, in pixels: its text, and the times at which head and tail are exchanged."""
     random = np.random.default_rng(seed)
     with h5py.File(log) as h5:
         t, x = h5["trajectory/time"][()], h5["trajectory/position"][()]
@@ -250,7 +250,7 @@ def filmed(log: Path, until: float, seed: int, fps=30, points=50, pixels=25.0):
                                                                                                      -np.sin(b)],
                                                                                                      [0, np.sin(b),
                                                                                                       np.cos(b)]])
-    place = (place @ turn.T + [20, 30, 10]) * [pixels, -pixels, pixels]
+    place = (place @ turn.T + [20, 30, 10]) * pixels
     lines = ["frame,s_cm,x_px,y_px,z_px"]
     for f in np.flatnonzero(kept):
         turned = f in exchanged
@@ -301,7 +301,7 @@ def runs(folder: Path) -> list[dict]:
             tried = [line for line in said.splitlines() if line.startswith("run by this program")]
             row |= {"shapes off (cm)": rms(off), "within bands of 90 %": in_band(fit, same),
                     "seen": said.split("film's end: ")[1].split("\n")[0].split(", which")[0],
-                    "stiffness (dyn cm^2)": tried[0].split("= ")[1].split(":")[0] if tried else ""}
+                    "following stiffness (a setting)": tried[0].split("= ")[1].split(" ")[0] if tried else ""}
             code, told = hagfish(folder, "run", "p.toml", "--until", "form", "--quiet", "--force", "--out", "again.h5")
             row["run ties"] = "the same" if code == 0 else told.strip().splitlines()[-1].split("failed: ")[-1]  # the scene expects the knot
             code, told = hagfish(folder, "against", "again.h5", "film.csv", "--start", 0, *read_as)
@@ -389,7 +389,12 @@ def tutorial(folder: Path) -> list[dict]:
     return rows
 
 
-PARTS = forms, runs, damaged, tutorial
+def ranges(folder: Path) -> list[dict]:
+    """Torques by the rigidity that is assumed, as the tutorial measures them."""
+    return tables.read_csv(folder / "tutorial/range.csv", [])
+
+
+PARTS = forms, runs, damaged, tutorial, ranges
 
 # Tables -------------------------------------------------------------------------------------------------------------
 
@@ -438,8 +443,8 @@ def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: li
 
 def write_summaries(folder: Path) -> None:
     """Of the tables of all parts."""
-    forms, runs, films, chapters = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", [])
-                                    for part in PARTS)
+    forms, runs, films, chapters, _ = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", [])
+                                       for part in PARTS)
     tables.write_table(folder, "films_outcomes", ["outcome", "films"], outcomes(films))
     tables.write_table(folder, "films_figures", ["figure", "value"], figures(forms, runs, films, chapters))
 

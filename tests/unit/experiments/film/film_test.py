@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import films
-from program import hagfish, logged, refused, table
+from program import hagfish, logged, outcome, refused, table
 
 NOISE = 0.1  # cm, on each coordinate of each point
 OF_NOISE = NOISE * np.sqrt(3)  # distance, rms
@@ -77,6 +77,7 @@ def test_a_film_gives_back_knot_and_midlines(film, fitted):
     assert residual == pytest.approx(OF_NOISE, rel=0.1)  # the film's noise, and hardly more
     # What it says is to be run has muscles that follow the program: the run ties the knot and is where the animal was.
     assert "knot at the film's end: 3_1, right-handed" in fitted and "as the film does" in fitted
+    assert "torques are about in proportion to the rigidity EI" in fitted and "no property of the animal" in fitted
     (run,) = [line for line in fitted.splitlines() if line.startswith("hagfish run")]
     hagfish(film, *run.split()[1:], "--quiet")
     knot = h5py.File(film / "mine.h5")["knot/determinant"]
@@ -129,6 +130,7 @@ def test_a_film_has_a_clock_and_an_animal_of_its_own(film, fitted, tmp_path):
     for name in a:
         np.testing.assert_allclose(b[name], a[name], atol=1e-2)
     assert f"animal of {0.8 * length:.3g} cm scaled" in said
+    assert "hagfish specimen" in said and "--scene" in said and "--scene" not in fitted
     assert f"hagfish against mine.h5 '{path}' --start 0" in said.splitlines()
     said = hagfish(film, "against", "a.h5", path, "--start", 0, "--csv", tmp_path / "off.csv")
     np.testing.assert_allclose(np.unique(table(tmp_path / "off.csv")["time_s"]), time, atol=1e-6)  # the log's clock
@@ -147,6 +149,12 @@ BAD = {
     "word": (GOOD.replace(POINT, "1,3,three,0"), "three"),
     "time": (GOOD.replace(POINT, ",3,3,0"), "missing"),
     "few": ("time_s,s_cm,x_cm,y_cm\n0,0,0,0\n1,0,0,0\n", "points"),
+    "one name twice": (GOOD.replace("y_cm", "x_cm"), "column x_cm: its heading has this name twice"),
+    "two units": (GOOD.replace("y_cm", "x_mm"), "columns x_cm and x_mm"),
+    "a point twice": ("time_s,X a (cm),Y a (cm),X a (cm),Y a (cm)\n0,1,1,1,1\n", "x a (cm)"),
+    "cameras": ("pt1_cam1_X,pt1_cam1_Y\n1,1\n", "xyzpts.csv"),
+    "space": ("pt1_X,pt1_Y,pt1_Z\n1,1,1\n", "--unit cm, mm or m"),
+    "clock": (GOOD + "".join(f"{t},{s},{s},0\n" for t in (2, 3602) for s in range(6)), "--until 2"),
     "twice": (GOOD.replace("0,2,2,0", "0,1,2,0"), "twice"),
     "one": (GOOD[:GOOD.index("1,0,0,0")], "two times"),
     "empty": ("", "time_s"),
@@ -266,10 +274,38 @@ def test_a_tail_that_is_never_seen_is_not_bent_nor_scaled_in_silence(tmp_path):
         said, p = bends(tmp_path, *arguments)
         assert "scaled" not in said and "tip of the tail" not in said
         np.testing.assert_allclose(p["bend_z (rad/L)"], 1 + p["time (s)"], atol=0.05, err_msg=arguments[0])
+    write_film(tmp_path / "cut by point.csv", time, s, points, column="point", kept=lambda f, i: i < 17)
+    said, p = bends(tmp_path, "cut by point.csv", "--animal-length", LENGTH)
+    assert "fitted: " in said
+    np.testing.assert_allclose(p["bend_z (rad/L)"], 1 + p["time (s)"], atol=0.05)
+    said, _ = bends(tmp_path, "cut by point.csv")
+    assert "doubtful: " in said and "the fit makes an animal of 3" in said
     said, _ = bends(tmp_path, "cut.csv")
     assert "animal of 33.9 cm scaled to 42.4 cm" in said and "the last point is taken as the tip of the tail" in said
-    by_point = ["midlines", "by point.csv", "--out", "q.csv"]
-    refused(tmp_path, *by_point, "--animal-length", LENGTH, parts=("by point.csv", "needs a column s_cm"))
+    short = ["midlines", "by point.csv", "--out", "q.csv", "--animal-length", 30]
+    refused(tmp_path, *short, parts=("by point.csv", "span 42.4 cm", "--animal-length"))
+
+
+def test_a_head_that_is_never_seen_is_told(tmp_path):
+    time = np.arange(24) / 10
+    s, points = bent(time, lambda t: 1 + t, start=LENGTH / 4)
+    write_film(tmp_path / "f.csv", time, s, points, column="point")
+    said, _ = bends(tmp_path, "f.csv")
+    for part in ("the first point is taken as the tip of the head", "doubtful: ", "though the head is taken as clamped",
+                 "the fit makes an animal of 3"):
+        assert part in said
+    for known in ([], ["--animal-length", LENGTH]):
+        said, p = bends(tmp_path, "f.csv", "--first-point", LENGTH / 4, *known)
+        assert "fitted: " in said and "tip of the head" not in said
+        np.testing.assert_allclose(p["bend_z (rad/L)"], 1 + p["time (s)"], atol=0.05)
+
+
+def test_points_from_the_tail_are_the_first_suspicion(tmp_path):
+    time = np.arange(24) / 10
+    s, points = bent(time, lambda t: 1 + t)
+    write_film(tmp_path / "f.csv", time, s, points[:, ::-1], column="point")
+    said = outcome(tmp_path, "midlines", "f.csv", "--out", "p.csv").stdout
+    assert said.split("look at: ")[1].startswith("first, the order of the points")
 
 
 def test_points_that_are_not_even_are_placed_by_their_distances(tmp_path):
@@ -321,6 +357,19 @@ def test_what_no_body_can_do_is_taken_out_and_told(tmp_path):
     assert "are copies of one midline: left out" in film("repeated and lost", repeated_and_lost)
     said = film("none", lambda points: None)
     assert not [word for word in ("left out", "taken as missing", "turned round", "filled in") if word in said]
+
+
+def test_one_exchanged_midline_turns_no_others(tmp_path):
+    """Each alone, of an animal that is still for long and then faster and faster."""
+    time = np.arange(40) / 10
+    s, points = bent(time, lambda t: 1 + max(t - 2.5, 0) ** 2)
+    points = points + 0.01 * np.random.default_rng(1).standard_normal(points.shape)
+    for f in (0, 10, *range(25, 40, 2)):
+        exchanged = points.copy()
+        exchanged[f] = points[f, ::-1]
+        write_film(tmp_path / "f.csv", time, s, exchanged)
+        said = hagfish(tmp_path, "midlines", "f.csv", "--out", "p.csv", "--times", 12, "--force")
+        assert f"head and tail are exchanged in 1 midlines ({time[f]:.4g} s)" in said, said
 
 
 def test_one_camera_does_not_tell_a_knot(film, tmp_path):
@@ -396,6 +445,8 @@ def test_deeplabcut_is_read_as_it_is(tmp_path, several):
     assert "DeepLabCut" in is_the_arc(tmp_path, "dlc.csv", *who)
     is_the_arc(tmp_path, "dlc.csv", *who, "--scale", PIXELS)
     refused(tmp_path, "midlines", "dlc.csv", "--out", "q.csv", *who, parts=("dlc.csv", "--fps"))
+    (tmp_path / "twice.csv").write_text((tmp_path / "dlc.csv").read_text().replace("part 3", "part 2"))
+    refused(tmp_path, "midlines", "twice.csv", "--out", "q.csv", *who, "--fps", 20, parts=("bodypart part 2", "twice"))
     if several:
         refused(tmp_path, "midlines", "dlc.csv", "--out", "q.csv", "--fps", 20, parts=("eel, hag", "--individual"))
 
@@ -413,9 +464,52 @@ def test_sleap_is_read_as_it_is(tmp_path):
         h5["node_names"] = np.array([f"n{k}".encode() for k in range(PARTS)])
     assert "SLEAP" in is_the_arc(tmp_path, "sleap.h5", "--individual", "track_1")
     refused(tmp_path, "midlines", "sleap.h5", "--out", "q.csv", "--fps", 20, parts=("track_0, track_1",))
+    with h5py.File(tmp_path / "sleap.h5") as old, h5py.File(tmp_path / "frames first.h5", "w") as h5:
+        h5["tracks"], h5["track_names"] = old["tracks"][()].transpose(3, 0, 2, 1), old["track_names"][()]
+        h5["point_scores"] = old["point_scores"][()].transpose(2, 0, 1)
+        h5["tracks"].attrs["dims"] = '["frame", "track", "node", "xy"]'
+        h5["point_scores"].attrs["dims"] = '["frame", "track", "node"]'
+    is_the_arc(tmp_path, "frames first.h5", "--individual", "track_1")
+    with h5py.File(tmp_path / "frames first.h5", "a") as h5:
+        h5["track_names"][...] = b"track_1"
+        del h5["tracks"].attrs["dims"]
+    twice = ["midlines", "frames first.h5", "--out", "q.csv", "--fps", 20, "--individual", "track_1"]
+    refused(tmp_path, *twice, parts=("frames first.h5", "dims"))
+    with h5py.File(tmp_path / "frames first.h5", "a") as h5:
+        h5["tracks"].attrs["dims"] = '["frame", "track", "node", "xy"]'
+    refused(tmp_path, *twice, parts=("two animals of the name track_1",))
     with h5py.File(tmp_path / "other.h5", "w") as h5:
         h5["a"] = 1
     refused(tmp_path, "midlines", "other.h5", "--out", "q.csv", "--fps", 20, parts=("other.h5", "tracks"))
+
+
+def test_points_in_space_keep_their_hand(film, tmp_path):
+    """As DLTdv, Anipose, DeepLabCut, and SLEAP with sleap-anipose write them, in units of their own: none is turned."""
+    t = table(film / "film.csv")
+    time = np.unique(t["time_s"])
+    points = points_of(t, len(time))[::3, ::6]
+    nodes = points.shape[1]
+
+    def write(name, unit, names, rows, head=()):
+        numbers = [",".join(f"{value:.5g}" for value in row) for row in np.column_stack([*rows, points.reshape(len(points), -1) * unit])]
+        (tmp_path / name).write_text("\n".join([*head, ",".join(names), *numbers]) + "\n")
+
+    frames = [np.arange(len(points))]
+    each = [f"p{k}" for k in range(nodes) for _ in range(3)]
+    write("dltdv.csv", 0.01, [f"pt{k + 1}_{axis}" for k in range(nodes) for axis in "XYZ"], [])
+    write("anipose.csv", 10, ["fnum", *(f"n{k}_{axis}" for k in range(nodes) for axis in "xyz")], frames)
+    write("dlc.csv", 10, ["coords", *"xyz" * nodes], frames,
+          [",".join(["scorer", *["net"] * 3 * nodes]), ",".join(["bodyparts", *each])])
+    for name, attribute in [("sleap.h5", ("dims", '["frame", "track", "node", "xyz"]')),
+                            ("anipose.h5", ("Description", "Shape: (n_frames, n_tracks, n_nodes, 3). Camera views used: ['a', 'b']"))]:
+        with h5py.File(tmp_path / name, "w") as h5:
+            h5["tracks"] = points[:, None]
+            h5["tracks"].attrs[attribute[0]] = attribute[1]
+    fps = (len(points) - 1) / (time[::3][-1] - time[0])
+    for name, unit in [("dltdv.csv", "m"), ("anipose.csv", "mm"), ("dlc.csv", "mm"), ("sleap.h5", "cm"), ("anipose.h5", "cm")]:
+        said = hagfish(tmp_path, "midlines", name, "--fps", fps, "--unit", unit, "--out", "p.csv", "--force", *FITTED)
+        assert "fitted: " in said and "3_1, right-handed" in said and "runs down" not in said, name
+        refused(tmp_path, "midlines", name, "--fps", fps, "--out", "q.csv", parts=(name, "--unit cm, mm or m"))
 
 
 def test_ethovision_is_read_as_it_is(tmp_path):
