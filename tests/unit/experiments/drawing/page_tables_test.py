@@ -14,6 +14,7 @@ import claim_map
 import claims
 import departures
 import films
+import knot_in_numbers
 import leverage
 import living
 import pulls
@@ -39,6 +40,13 @@ def test_each_table_of_a_page_is_written_by_a_script_beside_it():
         stem, _, end = table.stem.rpartition("_")
         named = re.search(rf"\b{table.stem}\.csv|\"({table.stem}|{tail})\"", scripts)
         assert named or f'f"{stem}_{{' in scripts and re.search(rf'"{end}"|def {end}\b', scripts), table
+
+
+def test_a_knot_in_numbers_says_what_the_other_pages_say(tmp_path):
+    knot_in_numbers.main(tmp_path)
+    for made in (tmp_path / "tables").glob("*.csv"):
+        now, stated = read_table(made), read_table(RESULTS / "knot_in_numbers" / made.name)
+        assert (now.head, now.rows) == (stated.head, stated.rows), "make it again: bash experiments/reproduce.sh knot_in_numbers"
 
 
 def test_sliding_by_speed_and_stiffness(tmp_path):
