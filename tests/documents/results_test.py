@@ -30,6 +30,13 @@ def test_prose_has_no_figure_by_hand(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_a_page_says_what_its_knots_are_called(name):
+    text = results.text_of(name)
+    for knot, called in {"3_1": "overhand", "4_1": "figure-eight", "5_1": "double overhand", "5_2": "three-twist"}.items():
+        assert not re.search(rf"\b{knot}\b", text) or f"{called} ({knot})" in text.lower(), knot
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_page_has_question_answer_command_and_limits(name):
     text = results.text_of(name)
     for part in ("**Answer.**", f"<!-- stamp: {name} -->", "## What this page does not show"):
