@@ -95,8 +95,8 @@ Nearest nearest_on(const SplineSegment& segment, const Eigen::Vector3d& x, doubl
 class NearestFinder {
  public:
   NearestFinder(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                bool tail)
-      : segments_(segments), settings_(settings), tail_(tail) {}
+                bool tail, std::vector<int>& near)
+      : segments_(segments), settings_(settings), tail_(tail), near_(near) {}
 
   /// For the point `t` of segment `own`, among all segments that may touch it.
   Nearest nearest(int own, double t) {
@@ -130,8 +130,8 @@ class NearestFinder {
   const std::vector<SplineSegment>& segments_;
   const ContactSettings& settings_;
   bool tail_;
-  int own_ = -1;           ///< segment of the last search
-  std::vector<int> near_;  ///< segments that may be near it
+  int own_ = -1;            ///< segment of the last search
+  std::vector<int>& near_;  ///< segments that may be near it
 };
 
 /// A point of a segment, and the point nearest to it.
@@ -160,8 +160,8 @@ Place close_in(double level, int own, double inside, Place end, NearestFinder& s
 
 /// Where the level set around the point `t` of segment `own` ends, towards the tail or the head.
 Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                 double level, bool tail, int own, double t) {
-  NearestFinder strand(segments, settings, tail);
+                 double level, bool tail, int own, double t, std::vector<int>& near) {
+  NearestFinder strand(segments, settings, tail, near);
   const double border = tail ? 1 : 0;
   const auto is_last = [&](int segment) {
     return tail ? segment + 1 == static_cast<int>(segments.size()) ||
@@ -197,10 +197,11 @@ TouchingEnds touching_ends(const std::vector<SplineSegment>& segments,
   }
   if (first == nullptr) return {};
   const Contact head_end =
-      end_from(segments, scene.contact, gap, false, first->segment_a, first->t_a);
-  const Contact tail_end = end_from(segments, scene.contact, gap, true, last->segment_b, last->t_b);
-  contact_patch(segments, scene, head_end, false, patches.first);
-  contact_patch(segments, scene, tail_end, true, patches.last);
+      end_from(segments, scene.contact, gap, false, first->segment_a, first->t_a, patches.near);
+  const Contact tail_end =
+      end_from(segments, scene.contact, gap, true, last->segment_b, last->t_b, patches.near);
+  contact_patch(segments, scene, head_end, false, patches.near, patches.first);
+  contact_patch(segments, scene, tail_end, true, patches.near, patches.last);
   return {head_end, tail_end, end_arc(head_end, patches.first, false),
           end_arc(tail_end, patches.last, true)};
 }

@@ -23,6 +23,7 @@ struct TouchingEnds {
 /// The patches of contact that begin at both ends (patch.hpp).
 struct EndPatches {
   std::vector<PatchPoint> first, last;
+  std::vector<int> near;  ///< storage: segments near a point of the last search
 };
 
 /// `contacts` are the local minima of the gap of `segments`. Each part of the level set contains a

@@ -25,8 +25,9 @@ struct PatchPoint {
 /// are. `end` is the first (last) contact of TouchingEnds. So means over the patch move
 /// continuously with the body, where the end itself may jump. Writes points a few to a segment into
 /// `patch`; their shares add up to 1. The patch is empty where none of them touch, and where
-/// contact_patch is 0.
+/// contact_patch is 0. `near` is storage.
 void contact_patch(const std::vector<SplineSegment>& segments, const Scene& scene,
-                   const Contact& end, bool tail, std::vector<PatchPoint>& patch);
+                   const Contact& end, bool tail, std::vector<int>& near,
+                   std::vector<PatchPoint>& patch);
 
 }  // namespace hagfish

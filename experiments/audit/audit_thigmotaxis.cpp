@@ -23,8 +23,9 @@ bool towards_tail(const Scene& scene, Phase phase) {
 int last_loaded(const std::vector<SplineSegment>& segments, const Scene& scene,
                 const Contact& contact, KnotEnd end) {
   std::vector<PatchPoint> patch;
+  std::vector<int> near;
   if (end != KnotEnd::neither) {
-    contact_patch(segments, scene, contact, end == KnotEnd::last, patch);
+    contact_patch(segments, scene, contact, end == KnotEnd::last, near, patch);
   }
   int last = patch.empty() ? contact.segment_b : 0;
   for (const PatchPoint& point : patch) last = std::max(last, point.contact.segment_b);

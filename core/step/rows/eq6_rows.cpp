@@ -74,6 +74,7 @@ PatchSum sum_over(const std::vector<PatchPoint>& patch, const Model& model, cons
 /// The bodies that take part in the row whose moments begin at row `moment` of `sum`, rising.
 std::vector<BodyWrench> wrenches(const PatchSum& sum, int moment) {
   std::vector<BodyWrench> found;
+  found.reserve(16);
   for (int body = 0; body < static_cast<int>(sum.cols()); ++body) {
     if (sum.col(body).segment<6>(moment).isZero(0)) continue;
     found.push_back({body, sum.col(body).segment<3>(moment), sum.col(body).segment<3>(moment + 3)});
@@ -94,7 +95,8 @@ const std::vector<PatchPoint>& patch_of(const std::vector<SplineSegment>& segmen
     const std::optional<Contact>& end = tail ? found->ends.last : found->ends.first;
     if (!patch.empty() && same_points(end, command.contact)) return patch;
   }
-  contact_patch(segments, scene, command.contact, tail, storage);
+  std::vector<int> near;
+  contact_patch(segments, scene, command.contact, tail, near, storage);
   return storage;
 }
 

@@ -40,8 +40,9 @@ TEST(ContactPatch, OfCrossingLegsIsInTheirMiddleWhereItIsAllThatTouches) {
   const TouchingEnds ends = ends_of(segments, scene);
   ASSERT_TRUE(ends.first && ends.last);
   for (const bool tail : {false, true}) {
+    std::vector<int> near;
     std::vector<PatchPoint> patch;
-    contact_patch(segments, scene, tail ? *ends.last : *ends.first, tail, patch);
+    contact_patch(segments, scene, tail ? *ends.last : *ends.first, tail, near, patch);
     double sum = 0;
     Eigen::Vector3d of_a = Eigen::Vector3d::Zero(), of_b = of_a;
     for (const auto& [contact, share] : patch) {

@@ -339,7 +339,8 @@ TEST(ThigmotaxisRows, OverAPatchAreMeans) {
       command.end = end;
       command.slip = slip;
       std::vector<PatchPoint> patch;
-      contact_patch(segments, scene, command.contact, end == KnotEnd::last, patch);
+      std::vector<int> near;
+      contact_patch(segments, scene, command.contact, end == KnotEnd::last, near, patch);
       ASSERT_GE(patch.size(), 3U);
       Eigen::Vector4d mean = Eigen::Vector4d::Zero();  // left sides, right sides
       const auto sides = [&] {
