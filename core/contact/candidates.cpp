@@ -74,7 +74,6 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
     }
   }
   candidates.closest.assign(candidates.pairs.size(), std::nullopt);
-  candidates.known_until.assign(candidates.pairs.size(), 0);
   index_pairs(segments.size(), candidates);
 }
 

@@ -23,15 +23,12 @@ struct SegmentEnds {
   Eigen::MatrixX3d third;  ///< a third of the slope there, cm
 };
 
-/// The pairs of segments. `pairs` to `known_until` have an entry for each pair.
+/// The pairs of segments. `pairs`, `clear_until` and `closest` have an entry for each pair.
 struct Candidates {
   std::vector<SegmentPair> pairs;  ///< sorted
   /// The pair needs no evaluation until its two segments together have moved this far, cm.
   std::vector<double> clear_until;
   std::vector<std::optional<ClosestPoints>> closest;  ///< answer of the last evaluation
-  /// `closest` lies in the only basin of the gap until the two segments together have moved this
-  /// far, cm.
-  std::vector<double> known_until;
   std::vector<int> first;  ///< index of each segment's first pair; at the end, the number of pairs
   SegmentEnds ends;        ///< ends of the segments of the last search
   std::vector<double> displacement;  ///< bound for each segment since the pairs were listed, cm

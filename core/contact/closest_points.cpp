@@ -259,16 +259,7 @@ int samples_along(double slenderness) {
 
 void ClosestPointsSearch::answer(int samples, std::span<ClosestPointsQuery> queries) {
   descents_.clear();
-  sampled_.clear();
-  for (std::size_t k = 0; k < queries.size(); ++k) {
-    const std::optional<ClosestPoints>& guess = queries[k].guess;
-    if (guess && queries[k].one_basin) {
-      descents_.push_back({k, guess->t_a, guess->t_b, guess->t_a, guess->t_b});
-    } else {
-      sampled_.push_back(k);
-    }
-  }
-  for (std::size_t first = 0; first < sampled_.size(); first += sample_lanes) {
+  for (std::size_t first = 0; first < queries.size(); first += sample_lanes) {
     sample(samples, queries, first);
   }
   for (ClosestPointsQuery& query : queries) {
@@ -279,16 +270,16 @@ void ClosestPointsSearch::answer(int samples, std::span<ClosestPointsQuery> quer
   }
 }
 
-/// Lists the starts of a batch of queries, those of `sampled_` from `first` on.
-void ClosestPointsSearch::sample(int samples, std::span<ClosestPointsQuery> queries,
+/// Lists the starts of a batch of queries.
+void ClosestPointsSearch::sample(int samples, std::span<const ClosestPointsQuery> queries,
                                  std::size_t first) {
-  const int count = static_cast<int>(std::min<std::size_t>(sample_lanes, sampled_.size() - first));
+  const int count = static_cast<int>(std::min<std::size_t>(sample_lanes, queries.size() - first));
   struct Seen {
     const SplineSegment& segment;
     const Eigen::Vector3d& from;
   };
   SampledSegments a, b;
-  const auto query = [&](int k) -> ClosestPointsQuery& { return queries[sampled_[first + k]]; };
+  const auto query = [&](int k) -> const ClosestPointsQuery& { return queries[first + k]; };
   sample_segments(
       count, samples,
       [&](int k) {
@@ -304,7 +295,7 @@ void ClosestPointsSearch::sample(int samples, std::span<ClosestPointsQuery> quer
   const auto found = basins(a, b, samples);
   const double spacing = 1.0 / (samples - 1);
   for (int k = 0; k < count; ++k) {
-    const bool single = query(k).one_basin = std::has_single_bit(found[k]);
+    const bool single = std::has_single_bit(found[k]);
     for (std::uint64_t bits = found[k]; bits != 0; bits &= bits - 1) {
       const int bit = std::countr_zero(bits);
       const int i = bit / most_samples;
@@ -314,10 +305,9 @@ void ClosestPointsSearch::sample(int samples, std::span<ClosestPointsQuery> quer
       const ClosestPoints guess =
           single && query(k).guess ? *query(k).guess : ClosestPoints{t_a, t_b};
       const bool near = std::max(std::abs(guess.t_a - t_a), std::abs(guess.t_b - t_b)) <= spacing;
-      descents_.push_back(
-          {sampled_[first + k], t_a, t_b, near ? guess.t_a : t_a, near ? guess.t_b : t_b});
+      descents_.push_back({first + k, t_a, t_b, near ? guess.t_a : t_a, near ? guess.t_b : t_b});
       if (!near) {  // it may be in a basin that the samples do not resolve
-        descents_.push_back({sampled_[first + k], guess.t_a, guess.t_b, guess.t_a, guess.t_b});
+        descents_.push_back({first + k, guess.t_a, guess.t_b, guess.t_a, guess.t_b});
       }
     }
   }

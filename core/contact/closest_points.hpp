@@ -16,13 +16,10 @@ struct ClosestPoints {
 };
 
 /// Two segments whose closest points are wanted, and a `guess` such as the answer of the last step.
-/// With a guess, `one_basin` says that it lies in the only basin of the gap: then the search starts
-/// there, and does not sample. The search sets it where samples show one basin.
 struct ClosestPointsQuery {
   const SplineSegment* a = nullptr;
   const SplineSegment* b = nullptr;
   std::optional<ClosestPoints> guess;
-  bool one_basin = false;
   ClosestPoints closest = {};  ///< the answer
 };
 
@@ -55,11 +52,10 @@ class ClosestPointsSearch {
     double t_a = 0, t_b = 0;
     double guess_a = 0, guess_b = 0;
   };
-  void sample(int samples, std::span<ClosestPointsQuery> queries, std::size_t first);
+  void sample(int samples, std::span<const ClosestPointsQuery> queries, std::size_t first);
   void descend(std::span<ClosestPointsQuery> queries, std::size_t first) const;
 
-  std::vector<std::size_t> sampled_;  ///< queries whose segments are sampled
-  std::vector<Descent> descents_;
+  std::vector<Descent> descents_;  ///< storage
 };
 
 inline constexpr int most_samples = 8;

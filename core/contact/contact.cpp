@@ -6,10 +6,6 @@
 namespace hagfish {
 namespace {
 
-/// Motion of two segments together after which samples must show again that the gap has one basin,
-/// as a share of the radius. In half of it a gap changes by much less than basins are deep.
-constexpr double basin_reach = 0.05;
-
 /// Computes the closest points of the queued pairs; lists those within the margin.
 void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
               int samples, ContactSearch& search) {
@@ -22,18 +18,11 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
     query.a = &segments[candidates.pairs[index].a];
     query.b = &segments[candidates.pairs[index].b];
     query.guess = candidates.closest[index];
-    query.one_basin = candidates.displacement_of(index) < candidates.known_until[index];
   }
   scratch.closest_points.answer(samples, scratch.queries);
   for (std::size_t k = 0; k < scratch.queue.size(); ++k) {
     const int index = scratch.queue[k];
     const ClosestPoints& closest = scratch.queries[k].closest;
-    if (candidates.displacement_of(index) >= candidates.known_until[index]) {
-      candidates.known_until[index] =
-          scratch.queries[k].one_basin
-              ? candidates.displacement_of(index) + basin_reach * segments[0].r0
-              : 0;
-    }
     candidates.closest[index] = closest;
     candidates.clear_until[index] =
         candidates.displacement_of(index) + closest.gap - settings.margin;
