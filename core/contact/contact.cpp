@@ -1,7 +1,6 @@
 #include "core/contact/contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hagfish {
 namespace {
@@ -32,9 +31,6 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
     }
   }
 }
-
-/// Distance along the body between near pairs, cm. Finer bodies need no more of them.
-constexpr double near_spacing = 0.2;
 
 // A minimum on the border of two segments is found from both. The two gaps differ by rounding, less
 // than this share of the search margin.
@@ -157,8 +153,6 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   set.on_obstacles.clear();
   set.near_pairs.clear();
   set.least_gap = settings.margin;
-  if (search.scratch.close.empty()) return;
-  const int every = std::max(1, static_cast<int>(std::lround(near_spacing / segments[0].s1)));
   for (const int index : search.scratch.close) {
     const bool minimum = is_local_minimum(search, same_gap * settings.margin, index);
     const ClosestPoints& closest = *candidates.closest[index];
@@ -167,9 +161,8 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
     if (!minimum) {
       candidates.clear_until[index] = candidates.displacement_of(index) + gap - near;
     }
-    const SegmentPair& pair = candidates.pairs[index];
-    const bool listed = pair.a % every == 0 && pair.b % every == 0 && gap < near;
-    if (minimum || listed) {
+    if (minimum || gap < near) {
+      const SegmentPair& pair = candidates.pairs[index];
       const Contact contact = contact_at(segments, pair.a, closest.t_a, pair.b, closest.t_b);
       const bool on_obstacle = contact.obstacle >= 0;
       (!minimum ? set.near_pairs : (on_obstacle ? set.on_obstacles : set.contacts))
