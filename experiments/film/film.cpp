@@ -8,6 +8,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "experiments/film/film_checks.hpp"
 #include "experiments/film/film_table.hpp"
 
 namespace hagfish {
@@ -29,13 +30,6 @@ constexpr double even_share = 0.1, even_errors = 4;
 constexpr double most_of_length = 1.1;
 /// Of the body between two points, rad: more is noise.
 constexpr double most_turn = 2;
-
-double quantile(std::vector<double>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
-}
 
 /// The rows of a table by time, in each by number.
 void sort_points(const std::string& file, FilmTable& table) {
@@ -103,7 +97,7 @@ std::vector<double> ways_to(const std::vector<double>& numbers, const FilmTable&
   std::vector<double> middle;
   double known = 0, sum = 0;
   for (std::vector<double>& ways : way) {
-    middle.push_back(ways.empty() ? 0 : quantile(ways, 0.5));
+    middle.push_back(ways.empty() ? 0 : quantile_of(ways, 0.5));
     known += ways.empty() ? 0 : 1;
     sum += middle.back();
   }
@@ -114,7 +108,7 @@ std::vector<double> ways_to(const std::vector<double>& numbers, const FilmTable&
     for (double& w : way[i]) w = std::abs(w - middle[i]);
     // Of a median, from the median of what is off it.
     const double error =
-        1.9 * quantile(way[i], 0.5) / std::sqrt(static_cast<double>(way[i].size()));
+        1.9 * quantile_of(way[i], 0.5) / std::sqrt(static_cast<double>(way[i].size()));
     uneven = uneven || (off > even_share * mean_way && off > even_errors * error);
   }
   std::vector<double> to{0};
@@ -245,12 +239,12 @@ Film read_film(const std::string& file, const FilmReading& reading) {
 
   Spacing spacing = hagfish::spacing(film);
   if (spacing.ratio.empty()) fail("no midline has two points");
-  const double apart = quantile(spacing.apart, 0.5);
-  if (!table.by_arc) film.length = quantile(spacing.ratio, 0.75);
+  const double apart = quantile_of(spacing.apart, 0.5);
+  if (!table.by_arc) film.length = quantile_of(spacing.ratio, 0.75);
   if (!(film.length > least_length))
     fail(fmt::format("the animal would be {:g} cm long: check units and scale", film.length));
   if (table.by_arc) {
-    const double ratio = quantile(spacing.ratio, 0.5) / film.length;
+    const double ratio = quantile_of(spacing.ratio, 0.5) / film.length;
     const bool near = ratio < least_ratio && !film.planar && apart < corners_from;
     if (ratio > most_ratio || near || ratio < least_ratio * least_ratio * least_ratio) {
       fail(fmt::format(

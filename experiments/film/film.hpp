@@ -36,8 +36,8 @@ struct FilmReading {
   double length = 0;         ///< length of the film's animal, cm; 0: its last point is its tail
   double first = 0;          ///< way from the tip of the head to the first of numbered points, cm
   std::string individual;    ///< the one to read in films of several
-  bool y_up = false;         ///< columns in px have y up: else it runs down, as rows of images do
-  bool y_down = false;       ///< columns in a unit of length have y down
+  bool y_up = false;         ///< y of one camera's px runs up; else down, as rows of images do
+  bool y_down = false;       ///< y of all others runs down
 };
 
 /// Reads midlines as they come: a table with a row for each time and point (`time_s` or `frame`;

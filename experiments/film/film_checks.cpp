@@ -331,6 +331,13 @@ void tell_crossings(const Film& film, FilmRemarks& remarks) {
 
 }  // namespace
 
+double quantile_of(std::vector<double> values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
 double usual_interval(const Film& film) {
   std::vector<double> intervals;
   for (std::size_t f = 1; f < film.frames.size(); ++f) {

@@ -21,6 +21,9 @@ struct FilmRemarks {
 /// that cross themselves.
 FilmRemarks tidy(Film& film);
 
+/// The value at the place `share` (0 to 1) of `values`, sorted; there must be one.
+double quantile_of(std::vector<double> values, double share);
+
 /// Median time from one midline to the next, s.
 double usual_interval(const Film& film);
 

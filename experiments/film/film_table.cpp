@@ -138,12 +138,13 @@ class TableReader {
   /// `name` with a unit of length behind it, or with that of --unit; nothing where there is none.
   std::optional<LengthColumn> length(const std::string& name) {
     std::vector<LengthColumn> found;
-    for (const auto& [unit, cm] : {std::pair{"cm", 1.0}, {"mm", 0.1}, {"m", 100.0}, {"px", 1.0}}) {
+    const auto look = [&](const std::string& unit, double cm, bool pixels) {
       for (const std::string& full : {name + "_" + unit, name + " (" + unit + ")"}) {
-        if (const auto at = column(full))
-          found.push_back({*at, cm, std::string_view(unit) == "px"});
+        if (const auto at = column(full)) found.push_back({*at, cm, pixels});
       }
-    }
+    };
+    for (const auto& [unit, cm] : length_units) look(unit, cm, false);
+    look("px", 1, true);
     if (const auto at = column(name)) {
       if (reading_.unit_cm <= 0) {
         fail("column " + name + ": has no unit: " + name + "_cm, _mm, _m or _px, or give --unit");

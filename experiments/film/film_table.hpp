@@ -26,6 +26,10 @@ struct FilmTable {
   std::string format;
 };
 
+/// Units of length that columns or --unit may name, each in cm.
+inline constexpr std::pair<const char*, double> length_units[] = {
+    {"cm", 1}, {"mm", 0.1}, {"m", 100}};
+
 /// Throws as read_film().
 FilmTable read_film_table(const std::string& file, const FilmReading& reading);
 

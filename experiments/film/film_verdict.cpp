@@ -29,21 +29,15 @@ double first_moves(const Film& film, double first_place) {
   for (const FilmFrame& frame : film.frames) {
     if (frame.place.front() == first_place) points.push_back(frame.point.col(0));
   }
-  const auto quantile = [](std::vector<double> values, double share) {
-    const auto at = values.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::ranges::nth_element(values, at);
-    return *at;
-  };
   Eigen::Vector3d usual;
   for (Eigen::Index d = 0; d < 3; ++d) {
     std::vector<double> values;
     for (const Eigen::Vector3d& point : points) values.push_back(point[d]);
-    usual[d] = quantile(values, 0.5);
+    usual[d] = quantile_of(values, 0.5);
   }
   std::vector<double> off;
   for (const Eigen::Vector3d& point : points) off.push_back((point - usual).norm());
-  return quantile(off, most_of_film);
+  return quantile_of(off, most_of_film);
 }
 
 }  // namespace

@@ -6,26 +6,25 @@
 #include <map>
 
 #include "core/input/input_text.hpp"
+#include "experiments/film/film_table.hpp"
 #include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/shell_word.hpp"
 
 namespace hagfish {
-namespace {
-
-const std::map<std::string, double> units = {{"cm", 1}, {"mm", 0.1}, {"m", 100}};
-
-}  // namespace
-
 void add_film_options(CLI::App& command, FilmReading& reading) {
   const auto scale =
       command.add_option("--scale", reading.pixels_per_cm, "pixels in a cm, for columns in px")
           ->check(above_zero());
+  std::map<std::string, double> units;
+  std::vector<std::string> names;
+  for (const auto& [unit, cm] : length_units) units.emplace(names.emplace_back(unit), cm);
   command
       .add_option_function<std::string>(
-          "--unit", [&reading](const std::string& unit) { reading.unit_cm = units.at(unit); },
+          "--unit",
+          [&reading, units](const std::string& unit) { reading.unit_cm = units.at(unit); },
           "unit of coordinates that name none, as of points in space: cm, mm or m")
-      ->check(one_of({"cm", "mm", "m"}))
+      ->check(one_of(names))
       ->excludes(scale);
   command.add_option("--fps", reading.fps, "frames a second, for films that count frames")
       ->check(above_zero());
@@ -54,8 +53,8 @@ std::string film_option_words(const FilmReading& reading) {
   const FilmReading usual;
   std::string words;
   if (reading.pixels_per_cm > 0) words += fmt::format(" --scale {:g}", reading.pixels_per_cm);
-  for (const auto& [unit, cm] : units) {
-    if (reading.unit_cm == cm) words += " --unit " + unit;
+  for (const auto& [unit, cm] : length_units) {
+    if (reading.unit_cm == cm) words += fmt::format(" --unit {}", unit);
   }
   if (reading.fps > 0) words += fmt::format(" --fps {:g}", reading.fps);
   if (reading.likelihood != usual.likelihood) {

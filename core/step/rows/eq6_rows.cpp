@@ -74,7 +74,7 @@ PatchSum sum_over(const std::vector<PatchPoint>& patch, const Model& model, cons
 /// The bodies that take part in the row whose moments begin at row `moment` of `sum`, rising.
 std::vector<BodyWrench> wrenches(const PatchSum& sum, int moment) {
   std::vector<BodyWrench> found;
-  found.reserve(16);
+  found.reserve(16);  // about as many as a patch loads
   for (int body = 0; body < static_cast<int>(sum.cols()); ++body) {
     if (sum.col(body).segment<6>(moment).isZero(0)) continue;
     found.push_back({body, sum.col(body).segment<3>(moment), sum.col(body).segment<3>(moment + 3)});

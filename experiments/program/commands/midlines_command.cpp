@@ -36,8 +36,8 @@ constexpr double same_animal = 0.05;
 /// Rigidities that are known of hagfish, over the middle of them, which scenes have; the sources
 /// are in data/specimens/pacific_hagfish.toml.
 constexpr double least_rigidity = 0.15, most_rigidity = 6;
-/// Between lines that tell of long work, s.
-constexpr double told_each = 5;
+/// Between lines that tell of long work.
+constexpr std::chrono::seconds told_each{5};
 /// Exit code: no program has the film's shapes.
 constexpr int not_fitted = exit_code::wrong_knot;
 
@@ -55,9 +55,9 @@ class Work {
  public:
   template <class... Values>
   void tell(fmt::format_string<Values...> format, Values&&... values) {
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - told_;
-    if (since.count() < told_each) return;
-    told_ += std::chrono::duration_cast<std::chrono::steady_clock::duration>(since);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < told_each) return;
+    told_ = now;
     say("{}\n", fmt::format(format, std::forward<Values>(values)...));
   }
 
@@ -141,8 +141,9 @@ void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
   const Scene& scene = resolved.scene;
   const std::vector<double>& own = resolved.specimen.bending_stiffness;
   fmt::print(
-      "torques are about in proportion to the rigidity EI, here {:g} dyn cm^2: of a hagfish it is "
-      "known to {:g} to {:g} times that, so run the film with both and give each torque's range\n",
+      "torques are about in proportion to the rigidity EI, here {:g} dyn cm^2: where nobody "
+      "measured that animal's, run the film with {:g} and {:g} times it, as far apart as values of "
+      "hagfish are, and give each torque's range\n",
       scene.model.passive == PassiveSource::specimen && !own.empty()
           ? own.front()
           : scene.model.bending_stiffness,

@@ -327,12 +327,15 @@ TEST(ThigmotaxisRows, HaveNoSumAndNoMoment) {
   }
 }
 
+class ThigmotaxisPatch : public testing::TestWithParam<Eq6Point> {};
+
 // Over a patch Eq. 6 is the mean of its rows at the points of the patch, by their shares.
-TEST(ThigmotaxisRows, OverAPatchAreMeans) {
+TEST_P(ThigmotaxisPatch, RowsAreMeans) {
   const Tangle t(83);
   const std::vector<SplineSegment> segments = spline(t.model, t.kin.centre);
   Scene scene;
   scene.controller.contact_patch = 0.3;
+  scene.controller.eq6_at = GetParam();
   for (const Eq6Slip slip : {Eq6Slip::paper, Eq6Slip::shape}) {
     for (const KnotEnd end : {KnotEnd::first, KnotEnd::last}) {
       ThigmotaxisCommand command = t.commands[static_cast<std::size_t>(end)];
@@ -360,6 +363,9 @@ TEST(ThigmotaxisRows, OverAPatchAreMeans) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Points, ThigmotaxisPatch,
+                         testing::Values(Eq6Point::skin, Eq6Point::centreline));
 
 TEST(ThigmotaxisRows, TakeTheObservedPatchForTheObservedEndAlone) {
   const Tangle t(83);
