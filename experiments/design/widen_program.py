@@ -10,8 +10,6 @@ TIME (s) on a straight ray from BODY on takes part, as if the tail were endless.
 back to those of PROGRAM, in which strands overlap: so the knot is pulled together.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How far one motion is from another: places and moments at the same stations along the body, whatever its mesh."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path

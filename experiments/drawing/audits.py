@@ -1,7 +1,5 @@
 """Verdicts of `hagfish check --csv`: a script has no bounds of its own."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

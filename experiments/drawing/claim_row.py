@@ -1,7 +1,5 @@
 """What one run says of the paper's claims, as a CSV row, whatever the run came to. Usage: claim_row.py LOG.h5 OUT.csv"""
 
-from __future__ import annotations
-
 import numpy as np
 
 import claims

@@ -8,8 +8,6 @@ impulse over h. X is taken at twisting joints, Y and Z at bending ones. Only (a)
 and of the hinges' torques. Nothing else is filtered.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

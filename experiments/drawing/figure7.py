@@ -4,8 +4,6 @@ All panels share one camera and one scale. `hagfish picture` draws the animal.
 Usage: figure7.py LOG.h5 HAGFISH OUT.png, where HAGFISH is the program (writes OUT.pdf beside).
 """
 
-from __future__ import annotations
-
 import csv
 import subprocess
 import tempfile

@@ -5,8 +5,6 @@ next (by default 20 ms); nothing else is filtered.
 Usage: figure8.py LOG.h5 OUT_SURFACE.png OUT_CLAIMS.png (writes PDFs beside, and OUT_CLAIMS.json).
 """
 
-from __future__ import annotations
-
 import json
 import textwrap
 from pathlib import Path

@@ -2,8 +2,6 @@
 table.h5 with units, and page.html with maps. Usage: gather.py FOLDER
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 What is missing, unreadable, foreign or without frames is a LogError.
 """
 
-from __future__ import annotations
-
 import contextlib
 import tomllib
 from collections.abc import Iterator

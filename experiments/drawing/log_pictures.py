@@ -1,7 +1,5 @@
 """Pictures of moments of a log, as `hagfish picture` draws them. Needs the program as built (HAGFISH_PROGRAM)."""
 
-from __future__ import annotations
-
 import subprocess
 import tempfile
 from collections.abc import Sequence

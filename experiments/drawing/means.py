@@ -4,8 +4,6 @@ A single step's force is an impulse over h, and rows switch on and off many time
 squares and little of the impulse.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 Usage: midlines.py PROGRAM.csv OUT.png.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

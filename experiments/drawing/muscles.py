@@ -3,8 +3,6 @@
 Usage: muscles.py LOG.h5 OUT.png (writes a PDF beside).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,6 +19,19 @@ PAIRS = (("left", "right"), ("dorsal", "ventral"), ("right_handed", "left_handed
 # muscles and frames.
 PEAK = 0.999
 SHORT = 0.01
+
+
+@dataclass
+class Effort:
+    """Of some frames."""
+
+    lines: float  # quantile PEAK of the activations of lines along the body
+    obliques: float  # of oblique families
+    mean: float
+    antagonists: float
+    residual: float  # largest of a hinge, dyn cm
+    short: float  # share of frames in which a hinge lacks more than SHORT of the largest torque
+    seconds: float
 
 
 class Muscles:
@@ -84,19 +95,6 @@ class Muscles:
         size = np.maximum(pair, own)
         off = (np.abs(pair - own) / np.maximum(size, 1e-300))[size > 0.01]
         return (float(np.median(off)), float(off.max())) if off.size else (np.nan, np.nan)
-
-
-@dataclass
-class Effort:
-    """Of some frames."""
-
-    lines: float  # quantile PEAK of the activations of lines along the body
-    obliques: float  # of oblique families
-    mean: float
-    antagonists: float
-    residual: float  # largest of a hinge, dyn cm
-    short: float  # share of frames in which a hinge lacks more than SHORT of the largest torque
-    seconds: float
 
 
 def phases(log: HagfishLog) -> list[tuple[str, float]]:

@@ -4,8 +4,6 @@ the knot never slid, is said in one line and left out. `hagfish figures` calls t
 Usage: of_log.py LOG HAGFISH OUT_FOLDER, where HAGFISH is the program.
 """
 
-from __future__ import annotations
-
 import contextlib
 import subprocess
 from collections.abc import Callable

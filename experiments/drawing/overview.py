@@ -4,8 +4,6 @@ and the phases. Of any log, as far as it goes.
 Usage: overview.py LOG.h5 OUT.png (writes OUT.pdf beside).
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -4,8 +4,6 @@ Colours are Okabe and Ito's (https://jfly.uni-koeln.de/color), told apart with a
 line styles tell the same.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path

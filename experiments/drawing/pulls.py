@@ -3,8 +3,6 @@
 Means are over the settled part of the phase `pull`: from expect.pull_settled after it began.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

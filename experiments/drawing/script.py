@@ -1,8 +1,6 @@
 """The command line that all scripts share: files in, files out. Bad input is one line on standard error and exit code 2, a full disk
 one and exit code 1."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import errno

@@ -3,8 +3,6 @@
 A run is a cell of a sweep that kept its logs, or NAME.h5 (its log) with NAME.check.csv (its audit).
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path

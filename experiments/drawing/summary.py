@@ -3,8 +3,6 @@
 Usage: summary.py LOG.h5 CHECK.csv OUT.md, where CHECK.csv is what `hagfish check --csv` says of the log.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -3,8 +3,6 @@
 Usage: sure.py FOLDER. FOLDER has table.csv of the runs and causes.csv. Prints a table; leaves sure.csv, sure.png and a PDF beside.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What the columns of a table of `hagfish sweep` are, and the table itself, read by columns."""
 
-from __future__ import annotations
-
 import csv
 from array import array
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A page on a sweep: what became of its runs, and maps of their figures over its axes. Usage: sweep_page.py TABLE.csv OUT.html"""
 
-from __future__ import annotations
-
 import base64
 import html
 import io

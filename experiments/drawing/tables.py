@@ -1,7 +1,5 @@
 """Tables: Markdown for readers, CSV for programs."""
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Iterable, Sequence

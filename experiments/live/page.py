@@ -1,7 +1,5 @@
 """Puts the page together: python3 page.py hagfish.wasm index.html. One file that needs no other and asks for none."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

@@ -10,8 +10,6 @@ power of the diameter, as that of rods of one material does; capacity, area time
 times as long and no thicker.
 """
 
-from __future__ import annotations
-
 import json
 import random
 import sys

@@ -23,8 +23,6 @@ cells have the words (several with + between), or, of several rows, the least to
 Without words, of all rows.
 """
 
-from __future__ import annotations
-
 import datetime
 import hashlib
 import math

@@ -3,8 +3,6 @@
 Usage: tied_knot.py HAGFISH OUT.toml
 """
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

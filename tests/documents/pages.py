@@ -1,7 +1,5 @@
 """The documents as text: prose without code, tables and what scripts write."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

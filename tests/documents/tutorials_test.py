@@ -5,8 +5,6 @@ line must be among it, with numbers that are NEAR. Blocks marked python are run 
 knot.h5. Blocks marked toml are scenes, parts of scenes or grids, and are run as such.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

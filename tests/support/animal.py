@@ -1,7 +1,5 @@
 """The animal's geometry by formulas of the tests' own, which logs, tables and pages are held against."""
 
-from __future__ import annotations
-
 import h5py
 import numpy as np
 

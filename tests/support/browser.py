@@ -1,7 +1,5 @@
 """A headless Chromium, told what to do over its debugging pipe: no other program and no network port takes part."""
 
-from __future__ import annotations
-
 import base64
 import json
 import os

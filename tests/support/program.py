@@ -1,7 +1,5 @@
 """The program (HAGFISH_PROGRAM) from Python, and runs of it that tests share."""
 
-from __future__ import annotations
-
 import fcntl
 import functools
 import hashlib

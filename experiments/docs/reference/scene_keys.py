@@ -3,8 +3,6 @@
 Usage: scene_keys.py TABLE1.toml OUT.md. A test makes the page again and compares.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

@@ -3,8 +3,6 @@
     PYTHONPATH=build/release/experiments/python python3 experiments/python/examples/environment.py
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

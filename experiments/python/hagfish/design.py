@@ -1,7 +1,5 @@
 """A knot's name goes in, a program that the animal ties by itself comes out: `hagfish design`."""
 
-from __future__ import annotations
-
 import csv
 import shutil
 import subprocess

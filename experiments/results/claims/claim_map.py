@@ -4,8 +4,6 @@ knot is let go, stiffness and drag, each from several starts and at two steps.
 Usage: claim_map.py RUNS OUT_FOLDER, where RUNS holds READING_CHANGE_STEP_SEED.csv.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path

@@ -3,8 +3,6 @@
 Usage: contracting.py RUNS FOLDER. RUNS is what the study leaves. The chart comes into FOLDER, and the tables into its folder tables.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -3,8 +3,6 @@
 Usage: departures.py FOLDER. FOLDER is what the study leaves. The tables come in its folder tables.
 """
 
-from __future__ import annotations
-
 import math
 import tomllib
 from pathlib import Path

@@ -3,8 +3,6 @@
 Usage: PYTHONPATH=build/release/experiments/python python3 experiments/results/departures/explicit_springs.py SCENE LOG.h5
 """
 
-from __future__ import annotations
-
 import sys
 import tomllib
 from pathlib import Path

@@ -4,8 +4,6 @@ Usage: design.py FOLDER KNOWN.csv. FOLDER is what study.sh leaves, KNOWN.csv the
 FOLDER without searches the other tables are made of it. A test makes them so. Needs the program as built (HAGFISH_PROGRAM).
 """
 
-from __future__ import annotations
-
 import datetime
 import math
 import tomllib

@@ -3,8 +3,6 @@ the knot's place, and learned shapes. Usage: few_numbers.py FOLDER. FOLDER is wh
 study.sh leaves.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

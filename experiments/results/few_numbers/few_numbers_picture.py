@@ -3,8 +3,6 @@
 Usage: few_numbers_picture.py few_numbers_points.csv OUT.png (writes a PDF beside).
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -4,8 +4,6 @@ about PLACES (8) places along the way. Usage: played_numbers.py LOG.h5 OUT.toml 
 OUT is a scene, based on SCENE, a built-in one or a file beside OUT, with `controller.reduced_basis.places` and `played`.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -3,8 +3,6 @@ f_thigmo at the hinges, as means from frame to frame. Usage: sliding_shapes.py L
 "knot", the window from MARGIN (cm, 2) before the knot's first contact to as much behind its last, or "body".
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import sys

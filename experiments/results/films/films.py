@@ -4,8 +4,6 @@ films; and what the tutorial takes.
 Usage: films.py RUNS OUT_FOLDER. Needs the program as built (HAGFISH_PROGRAM). Runs that RUNS has a row of are not made again.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import resource

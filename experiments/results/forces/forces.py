@@ -3,8 +3,6 @@
 Usage: forces.py FOLDER. FOLDER is what the study leaves. The tables come in its folder tables.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Usage: free_head.py SWEEPS, where SWEEPS holds held, free and forming.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import tables

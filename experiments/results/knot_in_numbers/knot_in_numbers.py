@@ -6,8 +6,6 @@ In braces is one of the names of `own`, or FILE.csv; COLUMN; ROW; N; UNIT: the l
 of that table whose heading and whose row, cells joined by bars, have these patterns. N, 0 for the last, and UNIT are 1 where they are left out.
 """
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path

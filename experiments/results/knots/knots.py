@@ -3,8 +3,6 @@
 Usage: knots.py RUNS HAGFISH OUT_FOLDER, where HAGFISH is the program.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import matplotlib.pyplot as plt

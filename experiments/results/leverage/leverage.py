@@ -3,8 +3,6 @@
 Usage: leverage.py RUNS OUT_FOLDER (writes leverage.png and a PDF beside).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path

@@ -3,8 +3,6 @@
 Usage: leverage_picture.py leverage_runs.csv leverage_time.csv OUT.png (writes a PDF beside).
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -3,8 +3,6 @@
 Usage: leverage_why.py RUNS OUT.png (writes a PDF beside).
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

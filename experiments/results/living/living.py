@@ -3,8 +3,6 @@
 Usage: living.py RUNS OUT_FOLDER.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path

@@ -3,8 +3,6 @@
 Usage: muscle_study.py RUNS.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

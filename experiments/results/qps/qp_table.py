@@ -3,8 +3,6 @@
 Usage: qp_table.py QPS.csv OUT_FOLDER, where QPS.csv is of `hagfish qp --csv`.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from script import run_script

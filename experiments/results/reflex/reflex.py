@@ -5,8 +5,6 @@ stay where FOLDER has not their part of the study, so that a part can be made an
 made of those that are known. A test makes them so.
 """
 
-from __future__ import annotations
-
 import datetime
 from collections.abc import Callable, Iterable
 from pathlib import Path

@@ -10,8 +10,6 @@ logs of runs in which a joint copies the parabola through its own curvature and 
 before ("form"). From then on every joint copies, by Δ of the scene or by three times that at the knot's tail end.
 """
 
-from __future__ import annotations
-
 import csv
 import sys
 import tomllib

@@ -1,8 +1,6 @@
 """What the study of the reflex measured: a row a run, read from its sweeps and logs (`read_study`), or from the table that is kept
 of them (`read_table`), of which the page's tables are made."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
@@ -344,7 +342,7 @@ def cells_of(rows: list[Row]) -> list[list[object]]:
 def read_table(path: Path) -> tuple[list[Row], list[str]]:
     """Rows, and the notes above them."""
     table = tables.read_table(path)
-    words = {field.name for field in fields(Row) if field.type == "str"}
+    words = {field.name for field in fields(Row) if field.type is str}
     rows = []
     for line in table.rows:
         cells = {field.name: text for field, text in zip(fields(Row), line, strict=True)}

@@ -1,7 +1,5 @@
 """Where on its own skin an animal touches itself, from a log: the place of its knot, and what a knot has wiped."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from accuracy import through

@@ -3,8 +3,6 @@
 Usage: reverse.py SWEEP.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import tables

@@ -3,8 +3,6 @@
 Usage: sliding_map.py SWEEP.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

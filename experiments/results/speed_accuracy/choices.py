@@ -3,8 +3,6 @@
 Usage: choices.py RUNS OUT_FOLDER. RUNS is what study.sh leaves.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

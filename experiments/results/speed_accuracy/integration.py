@@ -3,8 +3,6 @@
 Usage: integration.py RUNS OUT_FOLDER, with RUNS/coil.h5, ... of `hagfish integrate`.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

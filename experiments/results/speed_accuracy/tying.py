@@ -4,10 +4,9 @@ back ends. Tables and a chart.
 Usage: tying.py RUNS OUT_FOLDER (writes speed_accuracy.png and a PDF beside). RUNS is what study.sh leaves.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 
@@ -37,10 +36,10 @@ class Motion:
     place: np.ndarray
     torque: np.ndarray
 
-    def towards(self, other: Motion, share: float) -> Motion:
+    def towards(self, other: Self, share: float) -> Self:
         return Motion(self.place + share * (other.place - self.place), self.torque + share * (other.torque - self.torque))
 
-    def errors(self, wanted: Motion) -> tuple[float, float]:
+    def errors(self, wanted: Self) -> tuple[float, float]:
         """Root mean square of places, cm; of moments, %."""
         return float(np.sqrt(((self.place - wanted.place) ** 2).sum(axis=2).mean())), off(self.torque, wanted.torque)
 

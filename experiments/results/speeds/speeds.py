@@ -2,8 +2,6 @@
 it. Usage: speeds.py SWEEP.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

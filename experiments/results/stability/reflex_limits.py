@@ -4,8 +4,6 @@ stiffness grow until the knot does not come to the head any more.
 Usage: reflex_limits.py HAGFISH OUT_FOLDER. Its folder reflex keeps the tied knot and one run at a time.
 """
 
-from __future__ import annotations
-
 import subprocess
 from collections.abc import Callable
 from pathlib import Path

@@ -3,8 +3,6 @@
 Usage: stability.py STABILITY.csv OUT_FOLDER (SCENE.png, stability.png, each with a PDF beside, and summary.md)
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass

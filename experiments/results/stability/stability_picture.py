@@ -3,8 +3,6 @@
 Usage: stability_picture.py stability.csv OUT.png (writes a PDF beside).
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

@@ -3,8 +3,6 @@
 Usage: benchmarks.py BENCHMARKS.json OUT_FOLDER.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

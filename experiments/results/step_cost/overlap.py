@@ -3,8 +3,6 @@
 Usage: overlap.py OVERLAP.csv OUT_FOLDER (rows of hagfish_overlap)
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from hagfish_log import LogError

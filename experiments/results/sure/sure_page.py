@@ -3,8 +3,6 @@
 Usage: sure_page.py FOLDER. FOLDER has a folder of `hagfish sure` for each scene of SCENES; leaves tables/sure.csv and sure_slides.csv there.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

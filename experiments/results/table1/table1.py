@@ -4,8 +4,6 @@ Usage: table1.py CHECK.csv STATED.csv OUT_FOLDER, where CHECK.csv is of `hagfish
 STATED.csv says something else.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Usage: thigmotaxis.py FOLDER. FOLDER is what the study leaves. The figure comes there, and the tables in its folder tables.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

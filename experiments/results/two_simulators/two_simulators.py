@@ -4,8 +4,6 @@ and how a knot slides in MuJoCo by f_thigmo alone, its mean from frame to frame 
 Usage: two_simulators.py COMPARE.h5 PLAYBACK.h5 OUT_FOLDER.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

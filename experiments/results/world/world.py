@@ -3,8 +3,6 @@
 Usage: world.py FOLDER, of study.sh, of what world_logs.py took of its logs.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -4,8 +4,6 @@ Usage: world_logs.py KIND FOLDER, of study.sh: all logs of FOLDER, each of a hol
 Needs the program as built (HAGFISH_PROGRAM).
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import subprocess

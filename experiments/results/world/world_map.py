@@ -3,8 +3,6 @@
 Usage: world_map.py WORLD_MAP.csv OUT.png, of world.py.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

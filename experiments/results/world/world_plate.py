@@ -3,8 +3,6 @@
 Usage: world_plate.py WIDTH SCENE.toml OUT.toml: of the hole, cm.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from script import run_script

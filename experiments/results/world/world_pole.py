@@ -4,8 +4,6 @@ Usage: world_pole.py FOLDER, of study.sh. Goes on from a frame of pole/run.h5, i
 of other sizes and ways. Leaves tables/world_pole.csv. Needs the program as built (HAGFISH_PROGRAM).
 """
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Usage: world_skin.py FOLDER OUT.png, of study.sh, of what world_logs.py took of the logs of FOLDER.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

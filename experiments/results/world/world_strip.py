@@ -3,8 +3,6 @@
 Usage: world_strip.py REFLEX.h5 PAPER.h5 BURROW.h5 POLE.h5 ROBOT.h5 OUT.png. Needs the program as built (HAGFISH_PROGRAM).
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import matplotlib.image

@@ -3,8 +3,6 @@
 Usage: world_wave.py ANGLE LENGTH PERIOD PHASE PROGRAM.csv SCENE.toml: of the tangent, rad; body lengths; s; at the start, turns.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

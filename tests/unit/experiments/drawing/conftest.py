@@ -1,7 +1,5 @@
 """A log of a run that never was, with forces and paths that the tests know: `log()` writes it and opens it."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from itertools import count

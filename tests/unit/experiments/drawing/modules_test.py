@@ -1,7 +1,5 @@
 """Scripts that draw refer to what the modules beside them have: a name that is gone would show only at the end of a long study."""
 
-from __future__ import annotations
-
 import ast
 import importlib
 from pathlib import Path

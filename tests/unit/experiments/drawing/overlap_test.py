@@ -1,7 +1,5 @@
 """Which of MuJoCo's settings is quoted beside the core's, and by how much it is dearer."""
 
-from __future__ import annotations
-
 import pytest
 
 from hagfish_log import LogError

@@ -1,7 +1,5 @@
 """The pull of a log: the spline's weights, the rope estimate and forces along a body that is bent by hand."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`hagfish export`: every column against the log, read and recomputed here."""
 
-from __future__ import annotations
-
 import shutil
 import tomllib
 

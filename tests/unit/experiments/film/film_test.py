@@ -1,7 +1,5 @@
 """`hagfish midlines` and `against`: a run's midlines, with the noise of digitising, give back its knot and shapes."""
 
-from __future__ import annotations
-
 import h5py
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """`hagfish specimen`: an animal from what was measured, and a scene in which it ties its knot."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 

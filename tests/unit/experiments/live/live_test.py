@@ -3,8 +3,6 @@
 Builds: HAGFISH_WEB=1 bash experiments/setup.sh; what it is compared with: cmake --build --preset portable --target live_digest.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

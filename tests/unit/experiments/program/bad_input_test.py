@@ -1,8 +1,6 @@
 """Files that are not there, are no logs, cannot be written or would be replaced: each command of the program's help says
 so in one line, with exit 2, and leaves nothing behind. Damaged logs are the fuzz test's (tests/fuzz)."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from pathlib import Path

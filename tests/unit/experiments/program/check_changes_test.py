@@ -1,7 +1,5 @@
 """`hagfish check` names what was changed in a log and does not come again; a killed run comes to the same end."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess

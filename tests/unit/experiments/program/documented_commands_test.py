@@ -1,7 +1,5 @@
 """What the documents show of the program is there: each command and each of its options."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

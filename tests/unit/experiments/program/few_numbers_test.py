@@ -1,7 +1,5 @@
 """What the study of few numbers reads from logs: torques of the numbers, and profiles of them by the knot's place."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tomllib

@@ -1,7 +1,5 @@
 """`hagfish figures`: all figures of a log, and what it says of one that has less to show."""
 
-from __future__ import annotations
-
 from program import hagfish, logged
 
 ALL = "overview.png figure7.png figure8.png claims.png claims.json claims.txt summary.md check.csv".split()

@@ -1,7 +1,5 @@
 """File systems without hard links or locks (USB sticks, network shares): commands write their files all the same."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 

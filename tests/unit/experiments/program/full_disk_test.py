@@ -1,8 +1,6 @@
 """Full disks and quotas of several sizes: a command works, or says in one line which file it could not write, with exit
 1, and leaves nothing half-written. A limit on a file's size stands for the disk where there are no rights to mount one."""
 
-from __future__ import annotations
-
 import os
 import resource
 import shutil

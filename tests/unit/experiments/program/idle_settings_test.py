@@ -1,7 +1,5 @@
 """Settings that would be recorded and do nothing are refused by name."""
 
-from __future__ import annotations
-
 import pytest
 
 from program import ROOT, logged, refused, sets

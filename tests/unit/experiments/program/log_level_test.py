@@ -1,8 +1,6 @@
 """`hagfish run --log`: what logs of each level hold, what each command says of one that holds too little, and names of
 their axes for h5py and xarray."""
 
-from __future__ import annotations
-
 import re
 
 import h5py

@@ -1,8 +1,6 @@
 """Datasets of a log by name, against other datasets and formulas of this file: an exchanged column is another number
 here, though a run made again would have it exchanged, too."""
 
-from __future__ import annotations
-
 import h5py
 import numpy as np
 import pytest

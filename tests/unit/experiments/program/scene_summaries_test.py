@@ -1,7 +1,5 @@
 """The summary of each built-in scene's run leaves out none of its time, and none of its energy."""
 
-from __future__ import annotations
-
 import h5py
 import pytest
 

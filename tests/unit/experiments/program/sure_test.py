@@ -1,7 +1,5 @@
 """`hagfish sure`: a run a change, each the run that `hagfish run` makes of it; spreads, by hand."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

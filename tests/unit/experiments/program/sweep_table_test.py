@@ -1,7 +1,5 @@
 """`hagfish sweep` and what reads its tables: threads and gathered parts make one table, byte for byte."""
 
-from __future__ import annotations
-
 import gather
 from program import hagfish
 from sweep_columns import read_sweep

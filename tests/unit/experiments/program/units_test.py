@@ -1,7 +1,5 @@
 """Files in SI: each key's unit, as the comments of the commented files have it, is the one by which it is read."""
 
-from __future__ import annotations
-
 import math
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """A run whose log others read all the time goes to its end and is the run that nobody watched."""
 
-from __future__ import annotations
-
 import subprocess
 import time
 

@@ -1,7 +1,5 @@
 """`hagfish view`: what the page holds against the log, and the page in a headless Chromium, where there is one."""
 
-from __future__ import annotations
-
 import base64
 import csv
 import json
