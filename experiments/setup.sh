@@ -25,7 +25,6 @@ if [[ -z ${HAGFISH_RUN_ONLY-} ]]; then
   packages+=(
     python3-pytest python3-xarray python3-h5netcdf mypy # tests, and logs in Python
     ffmpeg                                              # films
-    parallel                                            # jobs of studies that are no grids
   )
 fi
 if [[ -n ${HAGFISH_CLUSTER-} ]]; then

@@ -1,12 +1,13 @@
 """How far one motion is from another: places and moments at the same stations along the body, whatever its mesh."""
 
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+import plots
 from hagfish_log import HagfishLog
 
 PRESETS = Path(__file__).resolve().parents[2] / "data" / "presets.toml"
@@ -78,3 +79,19 @@ def pareto(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
             best = error[i]
             front.append(i)
     return np.array(front, dtype=int)
+
+
+def mark_presets(axes: Any, at: Callable[[dict[str, Any]], tuple[float, float]]) -> None:
+    """A ring round each preset's run, which is `at` its place."""
+    for name, of in presets().items():
+        place = at(of)
+        axes.plot(*place, "o", mfc="none", mec=plots.INK, ms=12, mew=0.9, zorder=4)
+        axes.annotate(name, place, (-7, -6), textcoords="offset points", fontsize=7.5, ha="right", va="top", style="italic")
+
+
+def handles_of(looks: Iterable[plots.Look], sizes: dict[int, float]) -> list[Any]:
+    """Of a legend: methods by colour, bodies by size, presets."""
+    line = lambda **of: plots.plt.Line2D([], [], **of)
+    return [*(line(label=look.label, **look.style) for look in looks),
+            *(line(color=plots.GREY, marker="o", ls="", markersize=size, label=f"{bodies} bodies") for bodies, size in sizes.items()),
+            line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets")]

@@ -1,9 +1,12 @@
 """Verdicts of `hagfish check --csv`: a script has no bounds of its own."""
 
+import subprocess
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 from hagfish_log import LogError
+from script import HAGFISH
 from tables import read_csv
 
 COLUMNS = ["log", "criterion", "value", "bound", "unit", "met"]
@@ -26,6 +29,14 @@ def read_findings(path: Path) -> list[Finding]:
     if len({row["log"] for row in rows}) > 1:
         raise LogError(f"{path}: covers several logs, but must be of one")
     return [Finding(row["criterion"], row["value"], row["bound"], row["unit"], row["met"] == "yes") for row in rows]
+
+
+def audit(log: Path) -> list[Finding]:
+    """By the program as built (HAGFISH_PROGRAM)."""
+    with tempfile.TemporaryDirectory() as folder:
+        table = Path(folder) / "check.csv"
+        subprocess.run([HAGFISH, "check", log, "--csv", table], check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return read_findings(table)
 
 
 def value_of(findings: list[Finding], criterion: str) -> float:

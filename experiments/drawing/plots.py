@@ -59,6 +59,12 @@ SIDES = {"left": ((-6, 0), "right", "center"), "right": ((6, 0), "left", "center
 TICKS_APART = 1.3  # least ratio of two ticks
 
 
+def knot_of(scene: str) -> str:
+    """The type that a built-in scene of this name is of."""
+    bare = scene.removesuffix("_free").removesuffix("_waypoints")
+    return SCENES[next(name for name in sorted(SCENES, key=len, reverse=True) if bare.endswith(name))]
+
+
 def panels(rows: int, columns: int, size: tuple[float, float], titles: Sequence[str], **options: Any) -> tuple[Any, np.ndarray]:
     """A figure of `size` inches and its panels in reading order, lettered and titled; `options` go to `subplots`."""
     figure, grid = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False, **options)

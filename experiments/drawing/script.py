@@ -4,6 +4,7 @@ one and exit code 1."""
 import argparse
 import contextlib
 import errno
+import inspect
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -16,17 +17,18 @@ HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", Path(__file__).resolve().parent
 
 
 def run_script(description: str | None, names: Sequence[str], work: Callable[..., None]) -> None:
-    """Runs `work(path, ...)` on a command line of so many files and folders. A name with a suffix, such as LOG.h5, asks its
-    argument to have it too."""
+    """Runs `work` on a command line of so many files and folders, or of numbers and words where it says so. A name with a suffix, such as
+    LOG.h5, asks its argument to have it too."""
     parser = argparse.ArgumentParser(description=description)
-    for name in names:
-        parser.add_argument(name, type=Path)
-    paths = list(vars(parser.parse_args()).values())
-    for name, path in zip(names, paths):
-        if Path(name).suffix and path.suffix != Path(name).suffix:
-            parser.error(f"{path}: {name} must end in {Path(name).suffix}")
+    kinds = [of.annotation for of in inspect.signature(work).parameters.values()]
+    for name, kind in zip(names, kinds, strict=True):
+        parser.add_argument(name, type=kind if kind in (int, float, str) else Path)
+    given = list(vars(parser.parse_args()).values())
+    for name, argument in zip(names, given):
+        if Path(name).suffix and Path(argument).suffix != Path(name).suffix:
+            parser.error(f"{argument}: {name} must end in {Path(name).suffix}")
     try:
-        work(*paths)
+        work(*given)
     except LogError as error:
         fail(str(error))
     except OSError as error:

@@ -1,7 +1,4 @@
-"""Slides of the studies of knots: what was commanded and what came of it.
-
-A run is a cell of a sweep that kept its logs, or NAME.h5 (its log) with NAME.check.csv (its audit).
-"""
+"""Slides of the studies of knots: what was commanded and what came of it."""
 
 import re
 from dataclasses import dataclass
@@ -9,11 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-import audits
 from hagfish_log import HagfishLog
 from means import WINDOW, read_means
 from summary import step_phases
-from sweep_columns import read_sweep
+from sweep_columns import read_cells
 
 LEAST_FRAMES = 5  # of a slide with a speed
 AT_CAP = 0.999  # of the cap, a multiplier that is at it
@@ -64,15 +60,6 @@ def failure_of(log: HagfishLog, unmet: list[str]) -> str:
     return ""
 
 
-def unmet_of(folder: Path, name: str) -> list[str]:
-    """What the audit of a run names as failed."""
-    return audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
-
-
-def read_slide(folder: Path, name: str, phase: str = "slide") -> Slide:
-    return slide_of(HagfishLog(folder / f"{name}.h5"), unmet_of(folder, name), phase)
-
-
 def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
     """`unmet`: criteria of the scene that the run does not meet, as `hagfish check` and `hagfish sweep` name them."""
     scene = log.scene()
@@ -102,11 +89,5 @@ def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
 
 def read_slides(folder: Path, phase: str = "slide") -> list[Slide]:
     """All runs of a sweep that kept its logs, by knot and speed."""
-    unmet = read_sweep(folder / "table.csv").texts["unmet"]
-    slides = [slide_of(HagfishLog(log_of(folder, str(cell))), text.split("; "), phase) for cell, text in enumerate(unmet)]
+    slides = [slide_of(cell.log, cell.unmet, phase) for cell in read_cells(folder)]
     return sorted(slides, key=lambda s: (s.knot, s.commanded))
-
-
-def log_of(folder: Path, name: str) -> Path:
-    """The log of a cell of a sweep."""
-    return folder / "logs" / f"{name}.h5"

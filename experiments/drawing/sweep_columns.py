@@ -2,12 +2,14 @@
 
 import csv
 from array import array
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from hagfish_log import LogError
+from hagfish_log import HagfishLog, LogError
 
 TEXTS = {"outcome": "ok where the run came to its end, else why it stopped", "unmet": "criteria of [expect] that it does not meet",
          "message": "why it stopped", "knot": "type as tightening or the slide begins, or at the end where it comes to neither",
@@ -81,3 +83,34 @@ def read_sweep(path: Path) -> SweepTable:
     named = dict(zip(heading, words))
     return SweepTable({key: named[key] for key in heading[1:first - len(TEXTS)]}, {key: named[key] for key in TEXTS},
                       {key: np.frombuffer(values) for key, values in zip(FIGURES, numbers)})
+
+
+@dataclass
+class Cell:
+    """One run of a sweep that kept its logs; figures are nan where it has none."""
+
+    axes: dict[str, str]
+    texts: dict[str, str]
+    figures: dict[str, float]
+    path: Path
+
+    @property
+    def outcome(self) -> str:
+        return self.texts["outcome"]
+
+    @property
+    def unmet(self) -> list[str]:
+        """Criteria of [expect]."""
+        return self.texts["unmet"].split("; ")
+
+    @cached_property
+    def log(self) -> HagfishLog:
+        return HagfishLog(self.path)
+
+
+def read_cells(folder: Path) -> Iterator[Cell]:
+    table = read_sweep(folder / "table.csv")
+    of = lambda columns, k: {key: values[k] for key, values in columns.items()}
+    for k in range(len(table.passed)):
+        figures = {key: float(value) for key, value in of(table.figures, k).items()}
+        yield Cell(of(table.axes, k), of(table.texts, k), figures, folder / "logs" / f"{k}.h5")

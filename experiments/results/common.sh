@@ -2,7 +2,7 @@
 # Sourced by a page's study.sh, not run: sets up and builds, and makes the output folder, the script's argument or out/NAME:
 #   bash experiments/results/NAME/study.sh [OUTPUT_FOLDER]
 # Comes after targets=(...), what to build besides the program, if anything. Leaves root, page (its folder), grids (of `hagfish
-# sweep`), out, hagfish (the program), stiffness (settings) and draw. When the script ends, in whatever way, it says what is in out
+# sweep`), out, hagfish (the program), stiffness (settings), draw and swept. When the script ends, in whatever way, it says what is in out
 # and how long it took; building counts, and what an earlier run of it left does not.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 page=$(cd "$(dirname "$0")" && pwd)
@@ -21,7 +21,7 @@ trap elapsed EXIT
 bash "$root/experiments/setup.sh" --target hagfish "${targets[@]}"
 # Serial BLAS, so that runs repeat to the last bit.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-export hagfish=$root/build/release/experiments/hagfish
+export hagfish=$root/build/release/experiments/hagfish HAGFISH_PROGRAM=$root/build/release/experiments/hagfish # for shell, for Python
 
 # Flexural rigidity $1 (dyn cm^2), and with it what the specimen file has in proportion to it.
 stiffness() {
@@ -33,11 +33,14 @@ stiffness() {
 }
 
 # draw SCRIPT.py ARGUMENT...: the page's own, or one that pages share. Debian's python3 is the one that has h5py and matplotlib.
-export page drawing=$root/experiments/drawing
-export PYTHONPATH=$drawing:$root/experiments/results${PYTHONPATH:+:$PYTHONPATH}
-draw() {
-  local script=$page/$1
-  [[ -e $script ]] || script=$drawing/$1
-  /usr/bin/python3 -B "$script" "${@:2}"
+export PYTHONPATH=$page:$root/experiments/drawing:$root/experiments/results:$root/build/release/experiments/python
+draw() { /usr/bin/python3 -BPm "${1%.py}" "${@:2}"; }
+
+# swept GRID.toml FOLDER PARTS MODULE.FUNCTION: a part of the grid after the other, and of each log what the function makes of it
+# (taken.py), so that only the logs of a part are there at once.
+swept() {
+  for ((part = 1; part <= $3; ++part)); do
+    "$hagfish" sweep "$1" --out "$2" --part "$part/$3"
+    draw taken.py "$4" "$2/logs"
+  done
 }
-export -f draw

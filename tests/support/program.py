@@ -6,6 +6,7 @@ import hashlib
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -32,6 +33,13 @@ def hagfish(folder: Path, *arguments: object, code: int = 0) -> str:
     done = outcome(folder, *arguments)
     assert done.returncode == code, done.stdout + done.stderr
     return done.stdout + done.stderr
+
+
+def script(path: str, *arguments: object, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """Runs a script of experiments/, with the modules that scripts share."""
+    modules = os.environ | {"PYTHONPATH": f"{ROOT}/experiments/drawing:{ROOT}/experiments/results"}
+    command = [sys.executable, "-B", ROOT / "experiments" / path, *map(str, arguments)]
+    return subprocess.run(command, cwd=folder, env=modules, capture_output=True, text=True)
 
 
 def refused(folder: Path, *arguments: object, parts: tuple[str, ...] = ()) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import cpu_of, moments_of, name_of, off, pareto, pick, places_of, presets, shown
+from accuracy import cpu_of, handles_of, mark_presets, moments_of, name_of, off, pareto, pick, places_of, presets, shown
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -254,20 +254,13 @@ def draw(rows: Rows, out: Path) -> None:
         if not by_step:
             best = front(done(rows, law=law), measure)
             axes.plot([row["cpu_s"] for row in best], [row[measure] for row in best], color=plots.GREY, lw=5, alpha=0.3, zorder=0)
-            for name, of in presets().items():
-                row = done(rows, law=law, **of)[0]
-                axes.plot(row["cpu_s"], row[measure], "o", mfc="none", mec=plots.INK, ms=12, mew=0.9, zorder=4)
-                axes.annotate(name, (row["cpu_s"], row[measure]), (-7, -6), textcoords="offset points", fontsize=7.5,
-                              ha="right", va="top", style="italic")
+            run = lambda of, law=law: done(rows, law=law, **of)[0]
+            mark_presets(axes, lambda of, run=run, measure=measure: (run(of)["cpu_s"], run(of)[measure]))
         for axis, (least, most) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
             ticks = [m * 10.0**k for k in range(-4, 3) for m in ((1, 2, 5) if most < 1000 * least else (1,))]
             plots.plain_ticks(axis, [tick for tick in ticks if least <= tick <= most])
         plots.label(axes, texts)
-    line = lambda **of: plots.plt.Line2D([], [], **of)
-    handles = [line(label=look.label, **look.style) for look in METHODS.values()]
-    handles += [line(color=plots.GREY, marker="o", ls="", markersize=size, label=f"{bodies} bodies") for bodies, size in SIZES.items()]
-    handles += [line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets"),
-                line(color=plots.GREY, lw=5, alpha=0.3, label="quickest for its error")]
+    handles = [*handles_of(METHODS.values(), SIZES), plots.plt.Line2D([], [], color=plots.GREY, lw=5, alpha=0.3, label="quickest for its error")]
     plots.legend_above(figure, handles, 5, 0.055, columnspacing=1.2)
     plots.save(figure, out)
 

@@ -5,20 +5,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
 
-# run NAME COMMAND...: a run's log, and its CPU time, s. One that fails is a result, too.
-run() {
-  local name=$1 code=0
-  [[ -e $runs/$name.cpu ]] && return
-  TIMEFORMAT='%U %S'
-  { time "$hagfish" "${@:2}" --set time.frame_interval=0.1 --set 'expect.types=[]' --out "$runs/$name.h5" --force --quiet \
-    2>"$runs/$name.err"; } 2>"$runs/$name.time" || code=$?
-  if ((code == 2)) || grep -q 'failed: interrupted' "$runs/$name.err"; then
-    cat "$runs/$name.err" >&2
-    return 2
-  fi
-  mv "$runs/$name.time" "$runs/$name.cpu"
-  echo "$name"
-}
+run() { timed "$1" 1 "${@:2}" --set time.frame_interval=0.1 --set 'expect.types=[]'; }
 
 # Up to 0.1 s after the last frame that counts (contracting.py). MuJoCo's model has no head plate.
 declare -A scene=([reflex]="reflex_overhand --set wall.present=false --set time.duration=16.9" [paper]="living_overhand --set time.duration=15.9")

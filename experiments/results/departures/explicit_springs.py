@@ -1,6 +1,6 @@
 """A run whose springs act as printed: by the angles at the start of each step, so that Eq. 1 has M and no stiffness in it.
 
-Usage: PYTHONPATH=build/release/experiments/python python3 experiments/results/departures/explicit_springs.py SCENE LOG.h5
+Usage: explicit_springs.py SCENE LOG.h5, with the Python module as built.
 """
 
 import sys

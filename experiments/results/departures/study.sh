@@ -79,7 +79,7 @@ alone() {
 TIMEFORMAT="%U %S"
 for scene in table1 table1_as_printed; do
   alone ipopt "$scene" "$hagfish" run "$scene" --qp ipopt --out "$out/ipopt/$scene.h5" --force --quiet
-  PYTHONPATH=$root/build/release/experiments/python alone explicit "$scene" /usr/bin/python3 "$page/explicit_springs.py" \
+  alone explicit "$scene" /usr/bin/python3 "$page/explicit_springs.py" \
     "$scene" "$out/explicit/$scene.h5"
 done
 draw departures.py "$out"

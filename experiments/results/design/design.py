@@ -7,6 +7,7 @@ FOLDER without searches the other tables are made of it. A test makes them so. N
 import datetime
 import math
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -26,11 +27,9 @@ RANDOM = "drawn at random"  # in the names of such animals
 SEEN = {"3_1": "hagfish, morays", "4_1": "hagfish, morays", "5_1": "morays", "5_2": "hagfish"}
 SIZE, COLUMNS = "420x360", 4
 STEPS = ("0.001", "0.002", "0.005")  # s, of the audited runs
-KEPT = ["knot_wanted", "seed", "found", "tries", "tied_in_soft_body", "try", "slower", "starts", "starts_by_eq6",
-        "starts_by_reflex", "cpu_s", "wall_s",
-        "tighten_from_s", "slide_distance_cm", "release_from_s", "free_from_s", "largest_active_dyn_cm",
-        "largest_thigmotaxis_dyn_cm",
-        "work_active_erg", "penetration_cm"]
+KEPT = ["knot_wanted", "seed", "found", "tries", "tied_in_soft_body", "try", "slower", "starts", "starts_by_eq6", "starts_by_reflex", "cpu_s",
+        "wall_s", "tighten_from_s", "slide_distance_cm", "release_from_s", "free_from_s", "largest_active_dyn_cm",
+        "largest_thigmotaxis_dyn_cm", "work_active_erg", "penetration_cm"]
 LAWS = ("eq6", "reflex")
 OF_LOG = ["length_cm", "body_in_knot_cm", "body_in_knot_diameters"]
 Row = dict[str, str]
@@ -74,9 +73,7 @@ def of_log(log: HagfishLog) -> Row:
 
 
 def read_study(folder: Path) -> tuple[list[Row], list[str]]:
-    rows = []
-    results = []
-    revisions = set()
+    rows, results, revisions = [], [], set()
     for search in sorted(folder.glob("*/search.toml")):
         result = search.parent / "result.csv"
         what = tomllib.loads(search.read_text(encoding="utf-8"))
@@ -85,16 +82,15 @@ def read_study(folder: Path) -> tuple[list[Row], list[str]]:
         beside = {"folder": search.parent.name, "revision": what["revision"], "animal": animal.get("name", ""),
                   "for_animals": "yes" if what.get("animals") else "no",
                   **{f"unseen_by_{law}": served(search.parent, law) for law in LAWS}}
+        row = dict.fromkeys([*KEPT, *(f"audit_{step}_s" for step in STEPS), *beside, *OF_LOG], "")
         if result.exists():
             results.append(result)
-            row = tables.read_csv(result, KEPT)[0]
-            rows.append({**{name: row[name] for name in KEPT},
-                         **{f"audit_{step}_s": audited(result.parent, step) for step in STEPS}, **beside,
-                         **of_log(HagfishLog(search.parent / "knot.h5"))})
+            found = tables.read_csv(result, KEPT)[0]
+            row |= {name: found[name] for name in KEPT} | {f"audit_{step}_s": audited(result.parent, step) for step in STEPS}
+            row |= of_log(HagfishLog(search.parent / "knot.h5"))
         else:
-            rows.append({**dict.fromkeys([*KEPT, *(f"audit_{step}_s" for step in STEPS), *OF_LOG], ""),
-                         "knot_wanted": what["knot"],
-                         "seed": str(what["seed"]), **without_result(search.parent), **beside})
+            row |= {"knot_wanted": what["knot"], "seed": str(what["seed"])} | without_result(search.parent)
+        rows.append(row | beside)
     if not results:
         raise LogError(f"{folder}: holds no folder with a result.csv")
     log = HagfishLog(results[0].parent / "knot.h5")
@@ -114,43 +110,26 @@ def animal(row: Row) -> str:
     return row["animal"].removeprefix("Pacific hagfish ") or OWN
 
 
-def found_table(rows: list[Row]) -> Cells:
-    head = ["knot", "animal", "seed", "other animals asked for", "found", "CPU time, s", "clock, s", "paths tried",
-            "paths that tied it",
-            "starts, Eq. 6", "starts, reflex"]
-    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"], row["found"], number(row["cpu_s"]),
-                   number(row["wall_s"]),
-                                   row["tries"], row["tied_in_soft_body"], passed(row, "eq6"), passed(row, "reflex")]
-                                   for row in rows]
+of = lambda name: lambda row: row[name]
+figure = lambda name, digits=3: lambda row: number(row[name], digits)
+COLUMNS: dict[str, Callable[[Row], str]] = {  # of tables, by heading
+    "knot": of("knot_wanted"), "animal": animal, "its name": of("animal"), "seed": of("seed"), "other animals asked for": of("for_animals"),
+    "found": of("found"), "CPU time, s": figure("cpu_s"), "clock, s": figure("wall_s"), "paths tried": of("tries"),
+    "paths that tied it": of("tied_in_soft_body"), "starts, Eq. 6": lambda row: passed(row, "eq6"),
+    "starts, reflex": lambda row: passed(row, "reflex"), "of ten, Eq. 6": of("unseen_by_eq6"), "of ten, reflex": of("unseen_by_reflex"),
+    "length, cm": figure("length_cm"), "times as slow": figure("slower"), "tightened from, s": figure("tighten_from_s"),
+    "way, cm": figure("slide_distance_cm", 2), "untied at, s": figure("free_from_s"),
+    "largest torque of f_thigmo, dyn cm": figure("largest_thigmotaxis_dyn_cm", 2),
+    "work of active torques, erg": figure("work_active_erg", 2), "body in the knot, cm": figure("body_in_knot_cm"),
+    "in mean diameters": figure("body_in_knot_diameters"), "largest active torque, dyn cm": figure("largest_active_dyn_cm", 2),
+    "who is seen to tie it": lambda row: SEEN.get(row["knot_wanted"], "nobody"),
+    "audit at 1 ms": of("audit_0.001_s"), "at 2 ms": of("audit_0.002_s"), "at 5 ms": of("audit_0.005_s")}
+SEARCH = ["knot", "animal", "seed", "other animals asked for"]
+AUDITS = ["audit at 1 ms", "at 2 ms", "at 5 ms"]
 
 
-def unseen_table(rows: list[Row]) -> Cells:
-    head = ["knot", "animal", "seed", "other animals asked for", "of ten, Eq. 6", "of ten, reflex"]
-    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"],
-                   *(row[f"unseen_by_{law}"] for law in LAWS)]
-                                  for row in rows if row["found"] == "yes" and row["unseen_by_eq6"]]
-
-
-def animals_table(rows: list[Row]) -> Cells:
-    head = ["animal", "length, cm", "found", "CPU time, s", "clock, s", "paths tried", "starts, Eq. 6",
-            "starts, reflex", "audit at 1 ms",
-            "at 2 ms", "at 5 ms"]
-    return head, [[row["animal"], number(row["length_cm"]), row["found"], number(row["cpu_s"]), number(row["wall_s"]),
-                   row["tries"],
-                                   passed(row, "eq6"), passed(row, "reflex"),
-                                   *(row[f"audit_{step}_s"] for step in STEPS)] for row in rows]
-
-
-def needs_table(rows: list[Row]) -> Cells:
-    head = ["knot", "animal", "seed", "other animals asked for", "times as slow", "tightened from, s", "way, cm",
-            "untied at, s", "largest torque of f_thigmo, dyn cm",
-            "work of active torques, erg", "audit at 1 ms", "at 2 ms", "at 5 ms"]
-    return head, [[row["knot_wanted"], animal(row), row["seed"], row["for_animals"], number(row["slower"]),
-                   number(row["tighten_from_s"]),
-                                   number(row["slide_distance_cm"], 2), number(row["free_from_s"]),
-                                   number(row["largest_thigmotaxis_dyn_cm"], 2),
-                                   number(row["work_active_erg"], 2), *(row[f"audit_{step}_s"] for step in STEPS)]
-                                   for row in rows if row["found"] == "yes"]
+def table(rows: list[Row], head: list[str]) -> Cells:
+    return ["animal" if name == "its name" else name for name in head], [[COLUMNS[name](row) for name in head] for row in rows]
 
 
 def one_of_each(rows: list[Row]) -> list[Row]:
@@ -168,25 +147,16 @@ def least_served(rows: list[Row]) -> int:
     return min(int(row[f"unseen_by_{law}"]) for row in rows for law in LAWS)
 
 
-def gallery_table(rows: list[Row]) -> Cells:
-    head = ["knot", "animal", "body in the knot, cm", "in mean diameters", "largest active torque, dyn cm",
-            "who is seen to tie it"]
-    return head, [[row["knot_wanted"], animal(row), number(row["body_in_knot_cm"]),
-                   number(row["body_in_knot_diameters"]),
-                                   number(row["largest_active_dyn_cm"], 2), SEEN.get(row["knot_wanted"], "nobody")]
-                                   for row in one_of_each(rows)]
-
-
 def beside_table(rows: list[Row]) -> Cells:
     """The programs of data/ as the page `living` has them, and the found ones of the same knots."""
     living = tables.read_table(LIVING)
-    of = lambda what, knot: next(row for row in living.rows if row[0].startswith(what))[living.head.index(knot)]
+    stated = lambda what, knot: next(row for row in living.rows if row[0].startswith(what))[living.head.index(knot)]
     larger = lambda torques: max(torques.split("; "), key=float)
     found = {row["knot_wanted"]: row for row in one_of_each([row for row in rows if not row["animal"]])}
     lines = []
     for knot in living.head[1:]:
-        lines.append([knot, "of data/", of("of 10 other animals", knot), larger(of("largest torque of a hinge", knot)),
-                      of("clamped: way", knot).split(";")[0]])
+        lines.append([knot, "of data/", stated("of 10 other animals", knot), larger(stated("largest torque of a hinge", knot)),
+                      stated("clamped: way", knot).split(";")[0]])
         if knot in found:
             lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-",
                           number(found[knot]["largest_active_dyn_cm"], 2),
@@ -221,9 +191,17 @@ def page_tables(every: list[Row]) -> dict[str, Cells]:
     rows = sorted((row for row in every if RANDOM not in row["animal"]), key=order)
     others = sorted((row for row in every if RANDOM in row["animal"]),
                     key=lambda row: (len(row["animal"]), row["animal"]))
-    return {"found": found_table(rows), "gallery": gallery_table(rows), "needs": needs_table(rows),
-            "unseen": unseen_table(rows),
-            "beside": beside_table(rows), "animals": animals_table(others), "figures": figures_table(rows, others)}
+    found = [row for row in rows if row["found"] == "yes"]
+    cost = ["found", "CPU time, s", "clock, s", "paths tried"]
+    return {"found": table(rows, [*SEARCH, *cost, "paths that tied it", "starts, Eq. 6", "starts, reflex"]),
+            "gallery": table(one_of_each(rows), ["knot", "animal", "body in the knot, cm", "in mean diameters",
+                                                 "largest active torque, dyn cm", "who is seen to tie it"]),
+            "needs": table(found, [*SEARCH, "times as slow", "tightened from, s", "way, cm", "untied at, s",
+                                   "largest torque of f_thigmo, dyn cm", "work of active torques, erg", *AUDITS]),
+            "unseen": table([row for row in found if row["unseen_by_eq6"]], [*SEARCH, "of ten, Eq. 6", "of ten, reflex"]),
+            "beside": beside_table(rows),
+            "animals": table(others, ["its name", "length, cm", *cost, "starts, Eq. 6", "starts, reflex", *AUDITS]),
+            "figures": figures_table(rows, others)}
 
 
 def draw_gallery(folder: Path, rows: list[Row], out: Path) -> None:

@@ -15,7 +15,7 @@ from few_numbers_picture import ENOUGH, FRAMES
 from hagfish_log import HagfishLog, LogError
 from means import effort_per_cm, read_means
 from script import run_script
-from sweep_columns import SweepTable, read_sweep
+from sweep_columns import read_cells
 
 SCENES = {f"living_{name}": knot for name, knot in plots.SCENES.items()}
 NUMBERS = (3, 6, 9, 12, 18)
@@ -23,99 +23,76 @@ TRANSFERS = {"": "as found", "_start": "3 degrees of noise at the start", "_step
              "_mirror": "mirrored"}
 
 
-class Grid:
-    """Shares of the full way by scene, frame, period (s) and numbers: one for each start."""
-
-    def __init__(self, table: SweepTable) -> None:
-        axes = table.axes
-        self.scene, self.frame = np.array(axes["scene"]), np.array(axes["controller.reduced_basis.frame"])
-        self.period = np.array(axes["controller.reduced_basis.period"], dtype=float)
-        self.numbers = numbers_of(table)
-        self.reduced = self.numbers > 0
-        distance = held_way(table)
-        self.share = np.full(len(distance), np.nan)
-        for scene in SCENES:
-            of = self.scene == scene
-            if of.any():
-                full = np.median(distance[of & ~self.reduced])
-                if not full > 0:
-                    raise LogError(f"the paper's law slides nothing in {scene}")
-                self.share[of] = distance[of] / full
-
-    def shares(self, scene: str, frame: str, period: float, numbers: int) -> np.ndarray:
-        return self.share[self.reduced & (self.scene == scene) & (self.frame == frame) & (self.period == period)
-                          & (self.numbers == numbers)]
-
-    def periods(self) -> list[float]:
-        return sorted(set(self.period))
-
-    def counts(self) -> list[int]:
-        return sorted(set(self.numbers[self.reduced]))
-
-    def least(self, scene: str, frame: str, period: float) -> str:
-        """Numbers from which on, up to the most tried, all starts slide far enough."""
-        least = ""
-        for count in reversed(self.counts()):
-            shares = self.shares(scene, frame, period, count)
-            if len(shares) == 0 or (shares < ENOUGH).any():
-                break
-            least = str(count)
-        return least or "-"
+FRAME, PERIOD, LENGTH = "controller.reduced_basis.frame", "controller.reduced_basis.period", "specimen.length"
+Ways = dict[tuple[str, ...], list[float]]
 
 
-def numbers_of(table: SweepTable) -> np.ndarray:
-    """Of each cell; 0 by the paper's law."""
-    reduced = np.array(table.axes["controller.law"]) == "reduced_basis"
-    return 3 * np.array(table.axes["controller.reduced_basis.cosines"], dtype=int) * reduced
+def ways_of(sweep: Path, *axes: str) -> dict[str, dict[int, Ways]]:
+    """Ways of the knot's head end, cm, by knot, how many numbers (0 by the paper's law), and places on these axes; 0 where the knot is lost
+    or never tied."""
+    found: dict[str, dict[int, Ways]] = {}
+    for cell in read_cells(sweep):
+        of, way = cell.axes, cell.figures["slide_distance_cm"]
+        count = 3 * int(of["controller.reduced_basis.cosines"]) if of["controller.law"] == "reduced_basis" else 0
+        own = found.setdefault(plots.knot_of(of["scene"]), {}).setdefault(count, {})
+        own.setdefault(tuple(of[axis] for axis in axes), []).append(way if cell.outcome == "ok" and way > 0 else 0.0)
+    return found
 
 
-def held_way(table: SweepTable) -> np.ndarray:
-    """Way of the knot's head end, cm; 0 where the knot is lost or never tied."""
-    held = np.array(table.texts["outcome"]) == "ok"
-    return np.where(held, np.nan_to_num(table.figures["slide_distance_cm"]), 0)
+def full_way(counts: dict[int, Ways]) -> float:
+    """By the paper's law."""
+    return float(np.median(sum(counts[0].values(), [])))
 
 
-def starts(table: SweepTable) -> list[list[str]]:
-    scene, numbers, way = np.array(table.axes["scene"]), numbers_of(table), held_way(table)
-    rows = []
-    for count in sorted(set(numbers[numbers > 0])):
-        row = [f"starts that {count} numbers slide"]
-        for one in SCENES:
-            full = np.median(way[(scene == one) & (numbers == 0)])
-            ways = way[(scene == one) & (numbers == count)]
-            row.append(f"{(ways >= ENOUGH * full).sum()} of {len(ways)}")
-        rows.append(row)
-    return rows
+def counts_of(ways: dict[str, dict[int, Ways]]) -> list[int]:
+    return sorted({count for counts in ways.values() for count in counts if count})
 
 
-def animals(table: SweepTable) -> list[list[str]]:
+def shares(sweep: Path) -> dict[tuple[str, str, float, int], list[float]]:
+    """Of the full way, one for each start, by knot, frame, period (s) and numbers."""
+    found = {}
+    for knot, counts in ways_of(sweep, FRAME, PERIOD).items():
+        if not full_way(counts) > 0:
+            raise LogError(f"the paper's law slides no {knot}")
+        found |= {(knot, frame, float(period), count): [way / full_way(counts) for way in ways]
+                  for count, own in counts.items() if count for (frame, period), ways in own.items()}
+    return found
+
+
+def least(found: dict[tuple[str, str, float, int], list[float]], knot: str, frame: str, period: float) -> str:
+    """Numbers from which on, up to the most tried, all starts slide far enough."""
+    enough = "-"
+    for count in sorted({key[3] for key in found}, reverse=True):
+        if min(found.get((knot, frame, period, count), [0])) < ENOUGH:
+            break
+        enough = str(count)
+    return enough
+
+
+def starts(sweep: Path) -> list[list[str]]:
+    ways = ways_of(sweep)
+    far = lambda of, count: sum(way >= ENOUGH * full_way(of) for way in of[count][()])
+    return [[f"starts that {count} numbers slide", *(f"{far(of, count)} of {len(of[count][()])}" for of in ways.values())]
+            for count in counts_of(ways)]
+
+
+def animals(sweep: Path) -> list[list[str]]:
     """Of the animals that the paper's law slides, how many numbers slide as far, and the shares of the way."""
-    scene, numbers, way = np.array(table.axes["scene"]), numbers_of(table), held_way(table)
-    animal = np.array(table.axes["specimen.length"])
-    rows: list[list[str]] = []
-    for count in sorted(set(numbers[numbers > 0])):
-        row = [f"other animals that {count} numbers slide; share of the way: median, least"]
-        for one in SCENES:
-            full = {a: way[(scene == one) & (numbers == 0) & (animal == a)][0] for a in sorted(set(animal))}
-            shares = np.array([way[(scene == one) & (numbers == count) & (animal == a)][0] / full[a] for a in full if full[a] > 0])
-            row.append(f"{(shares >= ENOUGH).sum()} of {len(shares)}; {np.median(shares):.2f}, {shares.min():.2f}")
-        rows.append(row)
-    return rows
+    ways = ways_of(sweep, LENGTH)
+
+    def told(of: dict[int, Ways], count: int) -> str:
+        own = np.array([of[count][animal][0] / full for animal, (full,) in of[0].items() if full > 0])
+        return f"{(own >= ENOUGH).sum()} of {len(own)}; {np.median(own):.2f}, {own.min():.2f}"
+
+    return [[f"other animals that {count} numbers slide; share of the way: median, least", *(told(of, count) for of in ways.values())]
+            for count in counts_of(ways)]
 
 
-def free_head(table: SweepTable) -> list[list[str]]:
+def free_head(sweep: Path) -> list[list[str]]:
     """Shares of the way by the paper's law, by how often numbers are found: 0 also where the knot is lost."""
-    scene, numbers, way = np.array([name.removesuffix("_free") for name in table.axes["scene"]]), numbers_of(table), held_way(table)
-    period = np.array(table.axes["controller.reduced_basis.period"], dtype=float)
-    rows = []
-    for count in sorted(set(numbers[numbers > 0])):
-        row = [f"{count} numbers"]
-        for one in SCENES:
-            full = np.median(way[(scene == one) & (numbers == 0)])
-            row.append(", ".join(f"{way[(scene == one) & (numbers == count) & (period == each)][0] / full:.2f}"
-                                 for each in sorted(set(period))))
-        rows.append(row)
-    return rows
+    ways = ways_of(sweep, PERIOD)
+    told = lambda of, count: ", ".join(f"{of[count][period][0] / full_way(of):.2f}" for period in sorted(of[count], key=lambda p: float(*p)))
+    return [[f"{count} numbers", *(told(of, count) for of in ways.values())] for count in counts_of(ways)]
 
 
 def basis_torque(log: HagfishLog) -> np.ndarray:
@@ -181,28 +158,23 @@ def transfers(runs: dict[str, Run], name: str) -> list[list[str]]:
     return rows
 
 
-def points_of(grid: Grid) -> list[list[str]]:
-    """What the picture shows, a run a row."""
-    return [[knot, frame, f"{period:g}", str(count), f"{share:.3f}"] for scene, knot in SCENES.items() for frame in FRAMES
-            for period in grid.periods() for count in grid.counts() for share in grid.shares(scene, frame, period, count)]
-
-
 def main(folder: Path) -> None:
-    grid = Grid(read_sweep(folder / "numbers/table.csv"))
+    found = shares(folder / "numbers")
+    periods, counts = (sorted({key[k] for key in found}) for k in (2, 3))
     runs = {path.stem: Run(path) for path in sorted((folder / "runs").glob("*.h5"))}
-    many, free = read_sweep(folder / "starts/table.csv"), read_sweep(folder / "free/table.csv")
-    points = points_of(grid)
+    points = [[knot, frame, f"{period:g}", str(count), f"{share:.3f}"] for knot in SCENES.values() for frame in FRAMES for period in periods
+              for count in counts for share in found[knot, frame, period, count]]
     picture.draw([dict(zip(picture.HEAD, row)) for row in points], folder / "few_numbers.png")
-    least = [[f"{words}, each {1000 * period:g} ms", *(grid.least(scene, frame, period) for scene in SCENES)]
-             for frame, words in FRAMES.items() for period in grid.periods()]
-    periods = sorted(set(map(float, free.axes["controller.reduced_basis.period"])))
-    each = ", ".join(f"{1000 * period:g}" for period in periods)
+    fewest = [[f"{words}, each {1000 * period:g} ms", *(least(found, knot, frame, period) for knot in SCENES.values())]
+              for frame, words in FRAMES.items() for period in periods]
+    free = sorted({float(cell.axes[PERIOD]) for cell in read_cells(folder / "free")})
+    each = ", ".join(f"{1000 * period:g}" for period in free)
     table = lambda name, first, rows: tables.write_table(folder, f"few_numbers{name}", [first, *SCENES.values()], rows)
     tables.write_table(folder, "few_numbers_points", picture.HEAD, points)
-    table("", "least numbers from which on all slide", least)
-    table("_starts", "all the way", starts(many) + animals(read_sweep(folder / "animals/table.csv")))
+    table("", "least numbers from which on all slide", fewest)
+    table("_starts", "all the way", starts(folder / "starts") + animals(folder / "animals"))
     table("_effort", "effort in the knot's window, each 100 ms", efforts(runs))
-    table("_free", f"free head: share of the way, each {each} ms", free_head(free))
+    table("_free", f"free head: share of the way, each {each} ms", free_head(folder / "free"))
     table("_played", "played by the knot's place: share of the way; s", transfers(runs, "played"))
     table("_learned", "learned shapes: share of the way; s", transfers(runs, "learned"))
 

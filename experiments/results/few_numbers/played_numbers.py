@@ -1,17 +1,15 @@
 """The numbers by which a knot was slid in a run (controller.law = "reduced_basis"), as a profile of the knot's place: their means
-about PLACES (8) places along the way. Usage: played_numbers.py LOG.h5 OUT.toml [PLACES] --base SCENE
+about PLACES places along the way. Usage: played_numbers.py LOG.h5 OUT.toml PLACES SCENE
 
 OUT is a scene, based on SCENE, a built-in one or a file beside OUT, with `controller.reduced_basis.places` and `played`.
 """
 
-import argparse
-import sys
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "drawing"))
-from hagfish_log import HagfishLog, LogError  # noqa: E402
+from hagfish_log import HagfishLog, LogError
+from script import run_script
 
 
 def numbers_in_slide(log: HagfishLog) -> tuple[np.ndarray, np.ndarray]:
@@ -35,21 +33,12 @@ def profile(place: np.ndarray, numbers: np.ndarray, count: int) -> tuple[np.ndar
     return places, np.stack([np.interp(places, places[filled], column) for column in means.T], axis=1)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("log", type=Path)
-    parser.add_argument("out", type=Path)
-    parser.add_argument("places", type=int, nargs="?", default=8)
-    parser.add_argument("--base", required=True)
-    of = parser.parse_args()
-    try:
-        places, played = profile(*numbers_in_slide(HagfishLog(of.log)), of.places)
-    except LogError as error:
-        parser.error(str(error))
+def main(log: Path, out: Path, count: int, base: str) -> None:
+    places, played = profile(*numbers_in_slide(HagfishLog(log)), count)
     rows = "\n".join("  " + ", ".join(f"{a:.0f}.0" for a in row) + "," for row in played)
-    of.out.write_text(f'base = "{of.base}"\n\n[controller.reduced_basis]\nplaces = [{", ".join(f"{x:.3f}" for x in places)}]  # cm of arc\n'
-                      f"played = [  # dyn cm\n{rows}\n]\n", encoding="utf-8")
+    out.write_text(f'base = "{base}"\n\n[controller.reduced_basis]\nplaces = [{", ".join(f"{x:.3f}" for x in places)}]  # cm of arc\n'
+                   f"played = [  # dyn cm\n{rows}\n]\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
-    main()
+    run_script(__doc__, ["LOG.h5", "OUT.toml", "PLACES", "SCENE"], main)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# How few numbers slide a knot, in which frame, how often found (grids/few_numbers.toml), twenty starts of each
+# How few numbers slide a knot, in which frame, how often found (grids/numbers.toml), twenty starts of each
 # (grids/starts.toml), a free head (grids/free.toml), ten other animals (grids/animals.toml and
 # animals.py), what they take against f_thigmo, and, for each knot, numbers played by its place and shapes learned from f_thigmo, at
 # other steps and bodies and mirrored too. Leaves tables and few_numbers.png.
@@ -7,9 +7,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
-"$hagfish" sweep "$grids/few_numbers.toml" --out "$out/numbers"
-"$hagfish" sweep "$grids/starts.toml" --out "$out/starts"
-"$hagfish" sweep "$grids/free.toml" --out "$out/free"
+for grid in numbers starts free; do "$hagfish" sweep "$grids/$grid.toml" --out "$out/$grid"; done
 {
   cat "$grids/animals.toml"
   /usr/bin/python3 "$root/experiments/results/animals.py" 10 axis
@@ -32,7 +30,6 @@ transfers_of() {
 }
 numbers=(--set controller.law=reduced_basis --set expect.speed_share=0)
 for setting in frame=knot margin=2 smooth=0.1 period=0.1 softness=0.03 most=1e5; do numbers+=(--set "controller.reduced_basis.$setting"); done
-python() { /usr/bin/python3 "$root/experiments/results/few_numbers/$1" "${@:2}"; }
 declare -A enough=([overhand]=3 [figure_eight]=3 [double_overhand]=6 [three_twist]=3) # cosines
 declare -A modes=([overhand]=2 [figure_eight]=6 [double_overhand]=6 [three_twist]=6) # learned
 for knot in overhand figure_eight double_overhand three_twist; do
@@ -40,9 +37,9 @@ for knot in overhand figure_eight double_overhand three_twist; do
   for cosines in 1 2 3 4 6; do
     run_of "numbers_${knot}_$((3 * cosines))" "living_$knot" "${numbers[@]}" --set "controller.reduced_basis.cosines=$cosines"
   done
-  python played_numbers.py "$runs/numbers_${knot}_$((3 * ${enough[$knot]})).h5" "$runs/played_$knot.toml" --base "living_$knot"
+  draw played_numbers.py "$runs/numbers_${knot}_$((3 * ${enough[$knot]})).h5" "$runs/played_$knot.toml" 8 "living_$knot"
   transfers_of "played_$knot" "$runs/played_$knot.toml" "${numbers[@]}" --set "controller.reduced_basis.cosines=${enough[$knot]}"
-  python sliding_shapes.py "$runs/paper_$knot.h5" "$runs/shapes_$knot.csv" knot "${modes[$knot]}"
+  draw sliding_shapes.py "$runs/paper_$knot.h5" "$runs/shapes_$knot.csv" "${modes[$knot]}"
   transfers_of "learned_$knot" "living_$knot" "${numbers[@]}" --set "controller.reduced_basis.file=$runs/shapes_$knot.csv"
 done
 draw few_numbers.py "$out"

@@ -5,4 +5,4 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
 
-HAGFISH_PROGRAM=$hagfish draw films.py "$runs" "$out"
+draw films.py "$runs" "$out"

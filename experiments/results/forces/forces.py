@@ -13,8 +13,7 @@ import tables
 from accuracy import STATIONS, moments_of, off, shown, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
-from slides import log_of
-from sweep_columns import read_sweep
+from sweep_columns import read_cells
 
 PLACES = 200  # of the knot's head end, at which moments are compared
 USUAL = "2 ms"
@@ -52,13 +51,14 @@ def slide_of(log: HagfishLog, way: float) -> Slide:
 
 def read_slides(folder: Path) -> dict[tuple[str, str, str], Slide]:
     """By title, animals and knot."""
-    table, found = read_sweep(folder / "table.csv"), {}
-    for cell, scene in enumerate(table.axes["scene"]):
-        if (outcome := table.texts["outcome"][cell]) != "ok":
-            raise LogError(f"{folder}: cell {cell}, {scene}: {outcome}")
+    found = {}
+    for cell in read_cells(folder):
+        scene = cell.axes["scene"]
+        if cell.outcome != "ok":
+            raise LogError(f"{cell.path}, {scene}: {cell.outcome}")
         knot = plots.SCENES[scene.removeprefix("living_").removesuffix("_waypoints")]
-        found[table.axes["title"][cell].strip('"'), "living" if "living" in scene else "towed", knot] = slide_of(
-            HagfishLog(log_of(folder, str(cell))), table.figures["slide_distance_cm"][cell])
+        found[cell.axes["title"].strip('"'), "living" if "living" in scene else "towed", knot] = slide_of(
+            cell.log, cell.figures["slide_distance_cm"])
     return found
 
 

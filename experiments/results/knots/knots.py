@@ -1,6 +1,6 @@
 """Four knots side by side: pictures of four stages, and tables of how surely each is tied.
 
-Usage: knots.py RUNS HAGFISH OUT_FOLDER, where HAGFISH is the program.
+Usage: knots.py FOLDER, of the sweeps of study.sh. Needs the program as built (HAGFISH_PROGRAM).
 """
 
 from pathlib import Path
@@ -10,17 +10,17 @@ import numpy as np
 
 import claims
 import plots
+from audits import audit, unmet
 from figure7 import Stage, choose_camera, label_ends, take_pictures
 from hagfish_log import HagfishLog, LogError
 from means import Means, effort_per_cm, read_means
-from script import run_script
-from slides import MEAN, unmet_of
+from script import HAGFISH, run_script
+from slides import MEAN
+from sweep_columns import Cell, read_cells
 from tables import write_table
 
 GAP = 1.2  # around the animal in a picture, cm
-NOISES = ("0.2", "0.5", "1")
-STEPS = ("0.0005", "0.001", "0.005", "0.01", "0.02")
-CHANCE_STEPS = ("0.002", "0.001")
+KEPT = {"knot held", "unknot at end", "limits"}  # what a run that ties, holds and lets go meets
 
 
 def stages_of(log: HagfishLog) -> list[Stage]:
@@ -32,13 +32,13 @@ def stages_of(log: HagfishLog) -> list[Stage]:
             Stage(int(release[release.size // 2]), "slipping off")]
 
 
-def draw_pictures(logs: dict[str, HagfishLog], hagfish: Path, out: Path) -> None:
+def draw_pictures(logs: dict[str, HagfishLog], out: Path) -> None:
     """A row for each knot, a column for each stage; one scale throughout."""
     pictures = {}
     for knot, log in logs.items():
         stages = stages_of(log)
         view = choose_camera(log, stages)
-        pictures[knot] = stages, take_pictures(log, hagfish, [s.frame for s in stages], view), view
+        pictures[knot] = stages, take_pictures(log, HAGFISH, [s.frame for s in stages], view), view
     wide = max(p.right - p.left for _, row, _ in pictures.values() for p in row) + 2 * GAP
     heights = {knot: max(p.top for p in row) - min(p.bottom for p in row) + 2 * GAP for knot, (_, row, _) in pictures.items()}
     per_cm, above, below = plots.WIDTH / (4 * wide), 0.18, 0.32  # inches of text about a row
@@ -83,71 +83,63 @@ def force_figures(log: HagfishLog, means: Means) -> dict[str, float]:
             "effort": effort_per_cm(log, means), "work": float(work[last] - work[first])}
 
 
-def chance_figures(folder: Path, scene: str, step: str) -> dict[str, np.ndarray]:
+def by_knot(folder: Path, axis: str) -> dict[str, dict[str, list[Cell]]]:
+    """Runs of a sweep by knot and by their place on an axis."""
+    found: dict[str, dict[str, list[Cell]]] = {}
+    for cell in read_cells(folder):
+        found.setdefault(plots.knot_of(cell.axes["scene"]), {}).setdefault(cell.axes[axis], []).append(cell)
+    return found
+
+
+def chance_figures(cells: list[Cell]) -> dict[str, np.ndarray]:
     """`force_figures` of every start that differs by rounding alone."""
-    paths = sorted(folder.glob(f"chance_{scene}_{step}_*.h5"))
-    if len(paths) < 2:
-        raise LogError(f"{folder}: holds too few runs chance_{scene}_{step}_*")
-    found = [force_figures(log, read_means(log)) for log in map(HagfishLog, paths)]
+    found = [force_figures(cell.log, read_means(cell.log)) for cell in cells]
     return {name: np.array([each[name] for each in found]) for name in found[0]}
 
 
-def outcome(folder: Path, name: str) -> str:
-    """What the audit of a run names, the step's own penetration aside; empty where all is well."""
-    return ", ".join(dict.fromkeys(unmet_of(folder, name)))
+def outcome(cell: Cell) -> str:
+    """What the audit of a run names."""
+    return ", ".join(dict.fromkeys(unmet(audit(cell.path)))) or "passes"
 
 
-def sure(folder: Path, scene: str) -> list[str]:
-    """Of ten noisy starts, how many were tied, held, slid and came off, for each noise."""
-    cells = []
-    for noise in NOISES:
-        names = sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"noise_{scene}_{noise}_*.check.csv"))
-        unmet = [set(unmet_of(folder, name)) for name in names]
-        good = sum(not each & {"status", "knot held", "unknot at end", "limits"} for each in unmet)
-        clean = sum(not each & {"status", "knot held", "unknot at end", "limits", "penetration"} for each in unmet)
-        cells.append(f"{good} of {len(names)}" + (f" ({clean} within the penetration)" if clean != good else ""))
-    return cells
+def sure(cells: list[Cell]) -> str:
+    """Of noisy starts, how many were tied, held, slid and came off."""
+    missed = [set(cell.unmet) for cell in cells if cell.outcome == "ok"]
+    good, clean = (sum(not each & names for each in missed) for names in (KEPT, KEPT | {"penetration"}))
+    return f"{good} of {len(cells)}" + (f" ({clean} within the penetration)" if clean != good else "")
 
 
-def scene_of(folder: Path, knot: str) -> str:
-    for path in sorted(folder.glob("plain_*.h5")):
-        if HagfishLog(path).scene()["expect"]["knot"] == knot:
-            return path.stem.removeprefix("plain_")
-    raise LogError(f"{folder}: holds no run plain_* of {knot}")
-
-
-def mirror_error(folder: Path, scene: str) -> float:
+def mirror_error(plain: Cell, mirrored: Cell) -> float:
     """Largest distance of a body from where the mirror of the plain run has it, cm."""
-    plain, image = (HagfishLog(folder / f"{kind}_{scene}.h5")["/trajectory/position"] for kind in ("plain", "mirror"))
-    frames = min(len(plain), len(image))
-    return float(np.abs(plain[:frames] * [1.0, -1.0, 1.0] - image[:frames]).max())
+    own, image = (cell.log["/trajectory/position"] for cell in (plain, mirrored))
+    frames = min(len(own), len(image))
+    return float(np.abs(own[:frames] * [1.0, -1.0, 1.0] - image[:frames]).max())
 
 
-def force_by_step(folder: Path, scenes: dict[str, str], out: Path) -> None:
+def force_by_step(runs: dict[str, list[Cell]], out: Path) -> None:
     """The sliding force at every step tried, one run each: median of the means and, in brackets, mean over the slide, dyn."""
-    runs: dict[float, list[str]] = {}
-    for scene in scenes.values():
-        for name in (f"plain_{scene}", *(f"step_{scene}_{step}" for step in STEPS)):
-            log = HagfishLog(folder / f"{name}.h5")
-            found = force_figures(log, read_means(log))
-            runs.setdefault(log.scene()["time"]["step"], []).append(f"{found['median']:.0f} ({found['mean']:.0f})")
-    write_table(out, "knots_step", ["h, ms", *scenes], [[f"{1000 * step:g}", *cells] for step, cells in sorted(runs.items())])
+    cells: dict[float, list[str]] = {}
+    for log in (cell.log for own in runs.values() for cell in own):
+        found = force_figures(log, read_means(log))
+        cells.setdefault(log.scene()["time"]["step"], []).append(f"{found['median']:.0f} ({found['mean']:.0f})")
+    write_table(out, "knots_step", ["h, ms", *runs], [[f"{1000 * step:g}", *own] for step, own in sorted(cells.items())])
 
 
-def force_by_chance(folder: Path, scenes: dict[str, str], out: Path) -> None:
+def force_by_chance(folder: Path, out: Path) -> None:
     """What chance and the step make of the sliding force: mean ± standard deviation of starts that differ by rounding alone, and
     the change from one step to the other ± its standard error."""
-    chance = {k: [chance_figures(folder, scene, step) for step in CHANCE_STEPS] for k, scene in scenes.items()}
+    runs = by_knot(folder, "time.step")
+    chance = {knot: [chance_figures(cells) for cells in own.values()] for knot, own in runs.items()}
     rows = []
     for name, key in ((f"sum of the four λ/h: median of the {MEAN}s, dyn", "median"), ("mean over the slide, dyn", "mean"),
                       (f"largest {MEAN}, dyn", "peak_multipliers"), ("effort for each cm of slide, dyn s", "effort"),
                       ("slide, s", "seconds"), ("slide, cm", "travel")):
         form = ".2f" if key in ("seconds", "travel") else ".0f"
-        for i, step in enumerate(CHANCE_STEPS):
+        for i, step in enumerate(next(iter(runs.values()))):
             rows.append([f"{name}, at h = {1000 * float(step):g} ms", *(
                 f"{found[i][key].mean():{form}} ± {found[i][key].std(ddof=1):{form}}" for found in chance.values())])
         rows.append(["change, %", *(change(coarse[key], fine[key]) for coarse, fine in chance.values())])
-    write_table(out, "knots_chance", ["", *scenes], rows)
+    write_table(out, "knots_chance", ["", *runs], rows)
 
 
 def change(coarse: np.ndarray, fine: np.ndarray) -> str:
@@ -156,21 +148,21 @@ def change(coarse: np.ndarray, fine: np.ndarray) -> str:
     return f"{100 * (fine.mean() / coarse.mean() - 1):+.1f} ± {100 * error / coarse.mean():.1f}"
 
 
-def write_tables(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, claims.Sliding], out: Path) -> None:
+def write_tables(folder: Path, plain: dict[str, Cell], mirrored: dict[str, Cell]) -> None:
     rows: list[list[str]] = []
-    scenes = {knot: scene_of(folder, knot) for knot in logs}
+    logs = {knot: cell.log for knot, cell in plain.items()}
     row = lambda name, cell: rows.append([name, *(cell(knot) for knot in logs)])
-    row("scene", lambda k: scenes[k])
-    row("audit", lambda k: outcome(folder, f"plain_{scenes[k]}") or "passes")
-    row("mirror image, audit", lambda k: outcome(folder, f"mirror_{scenes[k]}") or "passes")
-    row("mirror image, farthest body off the reflected run, cm", lambda k: f"{mirror_error(folder, scenes[k]):.1g}")
+    noise, steps = by_knot(folder / "noise", "script.noise"), by_knot(folder / "step", "time.step")
+    row("scene", lambda k: plain[k].axes["scene"])
+    row("audit", lambda k: outcome(plain[k]))
+    row("mirror image, audit", lambda k: outcome(mirrored[k]))
+    row("mirror image, farthest body off the reflected run, cm", lambda k: f"{mirror_error(plain[k], mirrored[k]):.1g}")
     row("penetration, cm", lambda k: f"{logs[k]['/steps/penetration'].max():.5f}")
     row("past a limit, deg", lambda k: f"{np.degrees(logs[k]['/steps/limit_violation'].max()):.0e}")
-    for i, noise in enumerate(NOISES):
-        row(f"tied, held and off, noise {noise} cm", lambda k, i=i: sure(folder, scenes[k])[i])
-    for step in STEPS:
-        row(f"audit at h = {1000 * float(step):g} ms", lambda k, step=step:
-            outcome(folder, f"step_{scenes[k]}_{step}") or "passes")
+    for size in next(iter(noise.values())):
+        row(f"tied, held and off, noise {float(size):g} cm", lambda k, size=size: sure(noise[k][size]))
+    for step in next(iter(steps.values())):
+        row(f"audit at h = {1000 * float(step):g} ms", lambda k, step=step: outcome(steps[k][step][0]))
     figures = {k: force_figures(logs[k], read_means(logs[k])) for k in logs}
     for name, key, form in (("slide, s", "seconds", ".2f"), ("slide, cm", "travel", ".2f"),
                             (f"sum of the four λ/h: median of the {MEAN}s, dyn", "median", ".0f"),
@@ -183,20 +175,20 @@ def write_tables(folder: Path, logs: dict[str, HagfishLog], slides: dict[str, cl
                              "effort", ".0f"),
                             ("work, erg", "work", ".0f")):
         row(name, lambda k, key=key, form=form: format(figures[k][key], form))
-    modes = {k: claims.smooth_in_space(slides[k])["axes"].values() for k in logs}
+    modes = {k: claims.smooth_in_space(claims.read_sliding(logs[k]))["axes"].values() for k in logs}
     for name, key in (("Fourier modes for 95 % of the energy, of 50", "dct_modes_95"), ("SVD modes", "svd_modes_95")):
         row(name, lambda k, key=key: str(max(axis[key] for axis in modes[k])))
-    write_table(out, "knots", ["", *logs], rows)
-    force_by_step(folder, scenes, out)
-    force_by_chance(folder, scenes, out)
+    write_table(folder, "knots", ["", *logs], rows)
+    force_by_step({knot: [plain[knot], *(cell for cell, in steps[knot].values())] for knot in plain}, folder)
+    force_by_chance(folder / "chance", folder)
 
 
-def main(folder: Path, hagfish: Path, out: Path) -> None:
-    logs = {knot: HagfishLog(folder / f"plain_{scene_of(folder, knot)}.h5") for knot in plots.KNOTS}
-    slides = {knot: claims.read_sliding(log) for knot, log in logs.items()}
-    draw_pictures(logs, hagfish, out / "knots.png")
-    write_tables(folder, logs, slides, out)
+def main(folder: Path) -> None:
+    plain, mirrored = ({knot: cells[is_mirrored][0] for knot, cells in by_knot(folder / "plain", "mirror").items()}
+                       for is_mirrored in ("false", "true"))
+    draw_pictures({knot: cell.log for knot, cell in plain.items()}, folder / "knots.png")
+    write_tables(folder, plain, mirrored)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "HAGFISH", "OUT_FOLDER"], main)
+    run_script(__doc__, ["FOLDER"], main)

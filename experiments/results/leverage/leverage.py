@@ -1,6 +1,6 @@
 """The pull of every knot: tables, one of all runs (tables/leverage_runs.csv) among them, and a figure of what it depends on.
 
-Usage: leverage.py RUNS OUT_FOLDER (writes leverage.png and a PDF beside).
+Usage: leverage.py SWEEPS OUT_FOLDER, with SWEEPS of study.sh (writes leverage.png and a PDF beside).
 """
 
 from collections.abc import Iterable
@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-import audits
 import leverage_picture as picture
 import plots
 import tables
@@ -17,6 +16,7 @@ from hagfish_log import HagfishLog, LogError
 from leverage_picture import HEAD, MESH, SWEEPS, TIME_HEAD
 from pulls import Pull, read_pull, read_strand
 from script import run_script
+from sweep_columns import Cell, read_cells
 
 BODIES = {"table1": "Table 1", "living": "living"}
 
@@ -32,6 +32,7 @@ class Run:
     pull: Pull | None  # of a run that pulled
     overlap: float  # deepest at any step, cm
     deep: bool  # deeper than the scene allows
+    path: Path = Path()  # of its log
 
 
 def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
@@ -43,17 +44,17 @@ def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
     return "pulled" if log.in_phase("pull").size else "never at the head"
 
 
-def read_run(path: Path) -> Run:
-    name = path.name.removesuffix(".check.csv")
-    kind, body, knot, value, seed = name.split("-")
-    log = HagfishLog(path.parent / f"{name}.h5")
-    unmet = audits.unmet(audits.read_findings(path))
-    outcome = outcome_of(log, unmet)
-    pull = read_pull(log) if outcome == "pulled" else None
+def run_of(sweep: str, cell: Cell) -> Run:
+    """A value is the title in the grid; a start of 0 is exact."""
+    axes = cell.axes
+    scene, outcome = axes["scene"].removeprefix("pull_"), outcome_of(cell.log, cell.unmet)
+    kind = "mirror" if axes.get("mirror") == "true" else sweep.partition("_")[0]
+    seed = 0 if "mirror" in axes else int(axes.get("start.seed", 1))
+    pull = read_pull(cell.log) if outcome == "pulled" else None
     if pull is not None and not pull.force.size:
         outcome, pull = "too short", None
-    deepest = float(log["/steps/penetration"].max())
-    return Run(kind, body, plots.SCENES[knot], value, int(seed), outcome, pull, deepest, "penetration" in unmet)
+    return Run(kind, "living" if scene.startswith("living_") else "table1", plots.knot_of(scene), axes.get("title", "0"), seed, outcome, pull,
+               float(cell.log["/steps/penetration"].max()), "penetration" in cell.unmet, cell.path)
 
 
 def chosen(runs: Iterable[Run], body: str, knot: str, kind: str) -> list[Run]:
@@ -94,14 +95,15 @@ def time_table(runs: list[Run], out: Path) -> None:
     tables.write_table(out, "leverage_time", TIME_HEAD, rows)
 
 
-def work_table(runs: list[Run], folder: Path, out: Path) -> None:
+def work_table(runs: list[Run], out: Path) -> None:
     """What a slip of the whole body along itself would cost and yield, were the knot to keep its shape."""
     rows = []
     for body, label in BODIES.items():
-        for scene, knot in plots.SCENES.items():
-            if pulls_of(chosen(runs, body, knot, "plain")):
-                log = HagfishLog(folder / f"plain-{body}-{scene}-0-0.h5")
-                pull, work = read_pull(log).mean, read_strand(log).work
+        for knot in plots.SCENES.values():
+            for run in chosen(runs, body, knot, "plain"):
+                if not pulls_of([run]):
+                    continue
+                pull, work = run.pull.mean, read_strand(HagfishLog(run.path)).work
                 rows.append([label, knot, *(f"{force:.3f}" for force in (pull, work["rows"], work["contacts"] + work["plate"],
                                                                          pull - sum(work.values())))])
     tables.write_table(out, "leverage_work", ["body", "knot", "pull", "rows of Eq. 6", "contacts and head plate",
@@ -135,12 +137,14 @@ def csv_row(run: Run) -> list[str | float]:
 
 
 def main(folder: Path, out: Path) -> None:
-    runs = [read_run(path) for path in sorted(folder.glob("*-*-*-*-*.check.csv"))]
+    runs = [run_of(sweep.name, cell) for sweep in sorted(folder.iterdir()) for cell in read_cells(sweep)]
+    names = {knot: name for name, knot in plots.SCENES.items()}
+    runs.sort(key=lambda run: (run.kind, run.body, names[run.knot], run.value, run.seed))
     if not any(run.pull for run in runs):
         raise LogError(f"{folder}: holds no run that pulled")
     knots_table(runs, out)
     time_table(runs, out)
-    work_table(runs, folder, out)
+    work_table(runs, out)
     changes_table(runs, out)
     table = out / "tables/leverage_runs.csv"
     tables.write_csv(table, HEAD, [csv_row(run) for run in runs])
@@ -148,4 +152,4 @@ def main(folder: Path, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)
+    run_script(__doc__, ["SWEEPS", "OUT_FOLDER"], main)

@@ -1,6 +1,6 @@
 """Why a knot pulls harder than it pushes: the pulley, and tension, contacts and thigmotaxis along the body of pulling animals.
 
-Usage: leverage_why.py RUNS OUT.png (writes a PDF beside).
+Usage: leverage_why.py SWEEP OUT.png (writes a PDF beside).
 """
 
 from pathlib import Path
@@ -11,8 +11,9 @@ import plots
 from hagfish_log import HagfishLog
 from pulls import Strand, read_pull, read_strand, settled
 from script import run_script
+from sweep_columns import read_cells
 
-SHOWN = {"3_1": "plain-table1-overhand-0-0", "4_1": "plain-table1-figure_eight-0-0", "4_1 living": "plain-living-figure_eight-0-0"}
+SHOWN = ("pull_overhand", "pull_figure_eight", "pull_living_figure_eight")
 
 
 def draw_pulley(axes: plots.plt.Axes) -> None:
@@ -56,12 +57,12 @@ def main(folder: Path, out: Path) -> None:
     figure, axes = plots.panels(2, 2, (10.5, 7), [
         "a loop is a pulley", "$3_1$, Table 1 body", "$4_1$, Table 1 body", "$4_1$, living body"])
     draw_pulley(axes[0])
-    for panel, name in zip(axes[1:], SHOWN.values(), strict=True):
-        log = HagfishLog(folder / f"{name}.h5")
+    logs = {cell.axes["scene"]: cell.log for cell in read_cells(folder) if cell.axes["mirror"] == "false"}
+    for panel, log in zip(axes[1:], map(logs.get, SHOWN), strict=True):
         draw_strand(panel, read_strand(log), log)
     axes[1].legend(loc="center right")
     plots.save(figure, out)
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT.png"], main)
+    run_script(__doc__, ["SWEEP", "OUT.png"], main)

@@ -1,6 +1,6 @@
 """The animal that ties itself: torques, noisy starts, other animals, the paper's claims, and sweeps of stiffness, drag and haste.
 
-Usage: living.py RUNS OUT_FOLDER.
+Usage: living.py FOLDER, of the sweeps of study.sh.
 """
 
 from collections import Counter
@@ -9,17 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-import audits
 import claim_row
 import claims
 import plots
 import tables
-from hagfish_log import HagfishLog, LogError
+from hagfish_log import HagfishLog
 from script import run_script
-from slides import read_slide, tied
+from slides import slide_of, tied
+from sweep_columns import Cell, read_cells
 
-SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes",
-          "haste": "speed of the program"}
+SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes", "haste": "speed of the program"}
 CAPACITY = 2.7e5  # dyn cm, a guess: data/living_overhand.toml
 MEASURED = (3e4, 1.2e6)  # dyn cm^2, made of Long et al. 2002: data/specimens/pacific_hagfish.toml
 PHASES = ("form", "tighten", "slide", "release")
@@ -29,7 +28,6 @@ PHASES = ("form", "tighten", "slide", "release")
 class Run:
     """What one run shows; cm, dyn cm, erg."""
 
-    name: str
     knot: str
     outcome: str  # "off", or why the run is not one
     travel: float  # of the knot's head end
@@ -49,30 +47,27 @@ def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
     return "knot lost" if "knot held" in unmet else "still tied" if "unknot at end" in unmet else "off"
 
 
-def read_run(folder: Path, name: str, knot: str) -> Run:
-    log = HagfishLog(folder / f"{name}.h5")
-    findings = audits.read_findings(folder / f"{name}.check.csv")
-    unmet = audits.unmet(findings)
-    slide = read_slide(folder, name)
+def run_of(cell: Cell) -> Run:
+    log, slide = cell.log, slide_of(cell.log, cell.unmet, "slide")
     torque = np.abs(np.nan_to_num(log["/forces/active"])).max(axis=1)  # no step begins at the end
     frames = {phase: log.in_phase(phase) for phase in PHASES}
-    return Run(name, knot, outcome_of(log, unmet), slide.travel, audits.value_of(findings, "slide of both ends"),
-               slide.met, slide.force,
-               float(log["/steps/penetration"].max()),
+    return Run(plots.knot_of(cell.axes["scene"]), outcome_of(log, cell.unmet), slide.travel, cell.figures["both_ends_percent"], slide.met,
+               slide.force, float(log["/steps/penetration"].max()),
                {phase: float(torque[rows].max()) if rows.size else np.nan for phase, rows in frames.items()})
 
 
-def names_of(folder: Path, kind: str, scene: str) -> list[str]:
-    """All runs KIND_SCENE_VALUE."""
-    return sorted(path.name.removesuffix(".check.csv") for path in folder.glob(f"{kind}_{scene}_*.check.csv"))
+def runs_of(sweep: Path) -> list[list[Run]]:
+    """By knot."""
+    runs = [run_of(cell) for cell in read_cells(sweep)]
+    return [[run for run in runs if run.knot == knot] for knot in plots.SCENES.values()]
 
 
-def claims_table(folder: Path, out: Path) -> None:
+def claims_table(folder: Path) -> None:
     """Verdicts and measures of claim_row.py over starts with a degree of noise."""
     rows = []
-    for scene, knot in plots.SCENES.items():
-        judged = [dict(zip(claim_row.HEADING, claim_row.row_of(HagfishLog(folder / f"{name}.h5")), strict=True))
-                  for name in names_of(folder, "claims", scene)]
+    every = [(plots.knot_of(cell.axes["scene"]), claim_row.judged(cell.log)) for cell in read_cells(folder / "claims")]
+    for knot in plots.SCENES.values():
+        judged = [row for of, row in every if of == knot]
         own = [row for row in judged if row["outcome"] == "slid"]
         others = Counter(row["outcome"] for row in judged if row["outcome"] != "slid")
         verdicts = [claims.over_runs([row[name] for row in own]) for name in claims.NAMES]
@@ -80,7 +75,7 @@ def claims_table(folder: Path, out: Path) -> None:
                                                                                    [0, 50, 100])) if own else ""
         rows.append([knot, f"{len(own)} of {len(judged)}", *verdicts, *map(spread, claim_row.MEASURES[1:]),
                      ", ".join(f"{what}: {count}" for what, count in others.items())])
-    tables.write_table(out, "living_claims", ["knot", "let go at the head", *claims.NAMES, "beyond, dyn cm",
+    tables.write_table(folder, "living_claims", ["knot", "let go at the head", *claims.NAMES, "beyond, dyn cm",
                                               "near over far", "roughness along the body", "in time",
                                               "Fourier modes for 95 %", "what else became of it"], rows)
 
@@ -124,16 +119,15 @@ def short(value: float) -> str:
     return f"{value:.1e}".replace("e+0", "e")
 
 
-def main_table(folder: Path, out: Path) -> None:
-    of = lambda kind: [read_run(folder, f"{kind}_{scene}", knot) for scene, knot in plots.SCENES.items()]
-    every = lambda kind: [[read_run(folder, name, knot) for name in names_of(folder, kind, scene)] for scene, knot in plots.SCENES.items()]
+def main_table(folder: Path) -> None:
     off = lambda runs: [run for run in runs if run.outcome == "off"]
-    held, free, animals = of("held"), of("free"), list(map(off, every("animal")))
-    programs = [HagfishLog(folder / f"held_{scene}.h5").scene()["script"]["curvature"] for scene in plots.SCENES]
+    held, free = ([run for run, in runs_of(folder / name)] for name in ("held", "free"))
+    animals = list(map(off, runs_of(folder / "animal")))
+    programs = [cell.log.scene()["script"]["curvature"] for cell in read_cells(folder / "held")]
     slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"
     share = lambda runs: f"{len(off(runs))}; {np.nanmin([run.share for run in runs]):.0f}"
     met = [[100 * run.met for run in runs if np.isfinite(run.met)] for runs in animals]
-    tables.write_table(out, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
+    tables.write_table(folder, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
         ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %", *map(slid, held)],
         ["free, no plate: the same", *map(slid, free)],
         ["deepest penetration at any step, release included, cm", *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
@@ -141,29 +135,24 @@ def main_table(folder: Path, out: Path) -> None:
         ["largest torque of a hinge, forming; sliding, dyn cm", *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
         ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}" for each in programs)],
         ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
-         *map(share, every("heldstart"))],
-        ["free: the same", *map(share, every("freestart"))],
+         *map(share, runs_of(folder / "heldstart"))],
+        ["free: the same", *map(share, runs_of(folder / "freestart"))],
         ["of 10 other animals, clamped: tied, kept and off", *(str(len(runs)) for runs in animals)],
         ["of these: least share, %", *(f"{min(run.share for run in runs):.0f}" for runs in animals)],
         ["of these that slide: sliding steps that meet Eq. 6, %: median, least", *(f"{np.median(each):.0f}, {min(each):.0f}" for each in met)]])
 
 
-def main(folder: Path, out: Path) -> None:
-    if not list(folder.glob("held_*.check.csv")):
-        raise LogError(f"{folder}: holds no run held_*")
-    value_of = lambda name: float(name.rsplit("_", 1)[1])
-    runs_of = lambda what, scene, knot: [(value_of(name), read_run(folder, name, knot))
-                                         for name in names_of(folder, what, scene)]
-    sweeps = {what: {knot: sorted(runs_of(what, scene, knot), key=lambda each: each[0]) for scene,
-                     knot in plots.SCENES.items()}
-              for what in SWEEPS}
-    draw(sweeps, out / "living.png")
-    main_table(folder, out)
-    claims_table(folder, out)
-    tables.write_table(out, "living_sweeps", [
-        "what is changed", "knots tied and slid off", "largest torque of a hinge while forming, dyn cm"],
-                       sweep_rows(sweeps))
+def main(folder: Path) -> None:
+    sweeps: dict[str, dict[str, list[tuple[float, Run]]]] = {}
+    for what in SWEEPS:
+        found = [(float(cell.axes["title"]), run_of(cell)) for cell in read_cells(folder / what)]
+        sweeps[what] = {knot: [each for each in found if each[1].knot == knot] for knot in plots.SCENES.values()}
+    draw(sweeps, folder / "living.png")
+    main_table(folder)
+    claims_table(folder)
+    tables.write_table(folder, "living_sweeps", ["what is changed", "knots tied and slid off",
+                                                 "largest torque of a hinge while forming, dyn cm"], sweep_rows(sweeps))
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)
+    run_script(__doc__, ["FOLDER"], main)

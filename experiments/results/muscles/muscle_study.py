@@ -3,17 +3,16 @@
 Usage: muscle_study.py RUNS.
 """
 
-import re
 from pathlib import Path
 
 import numpy as np
 
-import audits
 import plots
 import tables
 from hagfish_log import HagfishLog, LogError
 from muscles import Effort, Muscles
 from script import run_script
+from sweep_columns import read_cells
 
 
 def sliding(log: HagfishLog) -> np.ndarray:
@@ -44,8 +43,8 @@ def rows_of(name: str, efforts: list[Effort]) -> list[list[str]]:
 
 
 def by_knot(folder: Path) -> None:
-    tied = [Muscles(HagfishLog(folder / f"tie_{scene}.h5")) for scene in plots.SCENES]
-    pulled = [Muscles(HagfishLog(folder / f"pull_{scene}.h5")) for scene in plots.SCENES]
+    every = [Muscles(cell.log) for cell in read_cells(folder / "ties")]
+    tied, pulled = every[:len(plots.SCENES)], every[len(plots.SCENES):]
     slides = [sliding(m.log) for m in tied]
     slid = [m.of(frames) for m, frames in zip(tied, slides)]
     rows = rows_of("tying", [m.of(m.log.intervals_in("form")) for m in tied])
@@ -61,20 +60,18 @@ def by_knot(folder: Path) -> None:
 
 def forward(folder: Path) -> None:
     rows = []
-    for path in sorted(folder.glob("forward_*.h5")) + sorted(folder.glob("start_*.h5")) + sorted(folder.glob("lag_*.h5")):
-        log = HagfishLog(path)
-        frames = log.in_phase("slide")
-        if not frames.size:
-            rows.append([path.stem, "never slides", "", "", "", ""])
-            continue
-        held = np.isin(log.labels("/trajectory/phase"), ("tighten", "slide"))
-        types = {(int(d), int(v)) for d, v in zip(log["/knot/determinant"][held], log["/knot/v2"][held])}
-        time = log["/trajectory/time"][frames]
-        driven = log["/muscle/driven"][frames]
-        share = audits.value_of(audits.read_findings(path.with_suffix(".check.csv")), "slide of both ends")
-        rows.append([path.stem, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{share:.0f}",
-                     f"{way(log) / (time[-1] - time[0]):.2f}",
-                     f"{np.quantile(driven, 0.999):.2f}"])
+    for grid, axis in (("forward", "scene"), ("start", "start.seed"), ("lag", "muscle.activation_time")):
+        for cell in read_cells(folder / grid):
+            log, name = cell.log, f"{grid}_{cell.axes[axis].removeprefix('living_')}"
+            frames = log.in_phase("slide")
+            if not frames.size:
+                rows.append([name, "never slides", "", "", "", ""])
+                continue
+            held = np.isin(log.labels("/trajectory/phase"), ("tighten", "slide"))
+            types = {(int(d), int(v)) for d, v in zip(log["/knot/determinant"][held], log["/knot/v2"][held])}
+            time = log["/trajectory/time"][frames]
+            rows.append([name, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{cell.figures['both_ends_percent']:.0f}",
+                         f"{way(log) / (time[-1] - time[0]):.2f}", f"{np.quantile(log['/muscle/driven'][frames], 0.999):.2f}"])
     tables.write_table(folder, "muscles_forward", ["on activations", "type until release", "way of the head end, cm",
                                                    "share of a slide by both ends, %", "cm/s", "peak activation"], rows)
 
@@ -82,13 +79,13 @@ def forward(folder: Path) -> None:
 def stiffness(folder: Path) -> None:
     figure, panels = plots.panels(1, 2, (8.5, 3.4), ["peak activation while tying and sliding", "frames in which a muscle is too weak"])
     rows: dict[float, list[str]] = {}
+    found: dict[str, dict[float, HagfishLog]] = {}
+    for cell in (*read_cells(folder / "ties"), *read_cells(folder / "stiffness")):
+        value = cell.axes.get("specimen.passive.bending_stiffness", "[2e5")  # as the specimen has it
+        found.setdefault(cell.axes["scene"], {})[float(value.strip("[]").split(",")[0])] = cell.log
     for scene, knot in plots.SCENES.items():
-        found = {2e5: folder / f"tie_{scene}.h5"}
-        for path in folder.glob(f"ei_{scene}_*.h5"):
-            found[float(re.sub(r".*_", "", path.stem))] = path
         points = []
-        for value, path in sorted(found.items()):
-            log = HagfishLog(path)
+        for value, log in sorted(found[f"living_{scene}"].items()):
             muscles = Muscles(log)
             frames = np.flatnonzero(np.isin(log.labels("/trajectory/phase"), ("form", "tighten", "slide")))[1:]
             effort = muscles.of(frames)

@@ -21,9 +21,10 @@ from hagfish_log import HagfishLog
 from log_pictures import pictures_of
 from reflex_runs import Row, read_table
 from script import run_script
-from slides import log_of
+from sweep_columns import read_cells
 
 KNOTS = list(plots.KNOTS)
+CASES = [(knot, head) for head in ("clamped", "free") for knot in KNOTS]
 USUAL, FINE_MESH, FINE_STEP, FINEST = "100; 2", "200; 2", "100; 1", "200; 1"  # bodies; step, ms
 STIFFNESS, RIGIDITY, DAMPING = 5e5, 2e5, 3e3  # B_a of living_overhand; B and C of the specimen: dyn cm^2, dyn cm^2, dyn cm^2 s
 NAMES = {"delay": "senses late by, s", "noise": "senses wrong by, share of each angle", "bodies": "bodies",
@@ -79,16 +80,12 @@ def span(values: Iterable[float | None], form: Callable[[float], str] = lambda v
 
 def knots_table(rows: list[Row]) -> Cells:
     body = []
-    for head in ("clamped", "free"):
-        for knot in KNOTS:
-            own, paper = one(rows, study="knots", knot=knot, head=head, setting=USUAL), one(rows, study="paper",
-                                                                                            knot=knot, head=head)
-            for name, row in (("reflex", own), ("Eq. 6", paper)):
-                if row is not None:
-                    body.append([f"{knot}, {head}", name, came(row), row.held, figure_of(row.torque, 2),
-                                 figure_of(row.effort, 2),
-                                 figure_of(row.put_in, 2), figure_of(row.work, 2), figure_of(row.wave, 2),
-                                 figure_of(row.travel, 2)])
+    for knot, head in CASES:
+        for name, row in (("reflex", one(rows, study="knots", knot=knot, head=head, setting=USUAL)),
+                          ("Eq. 6", one(rows, study="paper", knot=knot, head=head))):
+            if row is not None:
+                figures = (row.torque, row.effort, row.put_in, row.work, row.wave, row.travel)
+                body.append([f"{knot}, {head}", name, came(row), row.held, *(figure_of(value, 2) for value in figures)])
     return ["knot, head", "law", "way, cm, in time", "type held", "largest torque, dyn cm", "effort, dyn s",
             "work put in, erg/cm", "net work, erg/cm", "wave's speed, of the knot's", "travel, share of change"], body
 
@@ -101,15 +98,12 @@ def apart(a: float | None, b: float | None) -> str:
 def mesh_table(rows: list[Row]) -> Cells:
     settings = [USUAL, FINE_MESH, FINE_STEP, FINEST]
     body = []
-    for head in ("clamped", "free"):
-        for knot in KNOTS:
-            found = [one(rows, study="knots", knot=knot, head=head, setting=setting) for setting in settings]
-            of = lambda key: [getattr(row, key) if row else None for row in found]
-            time, middle = of("time"), of("middle")
-            body.append([f"{knot}, {head}", *("; ".join(figure_of(value) for value in pair)
-                                              for pair in zip(time, middle)),
-                         *(apart(values[0], values[1]) for values in (time, middle)), apart(middle[1], middle[3])])
-    return ["slide; its middle, s", *(f"{s.split('; ')[0]} bodies, {s.split('; ')[1]} ms" for s in settings),
+    for knot, head in CASES:
+        found = [one(rows, study="knots", knot=knot, head=head, setting=setting) for setting in settings]
+        time, middle = ([getattr(row, key) if row else None for row in found] for key in ("time", "middle"))
+        body.append([f"{knot}, {head}", *("; ".join(map(figure_of, pair)) for pair in zip(time, middle)),
+                     apart(*time[:2]), apart(*middle[:2]), apart(middle[1], middle[3])])
+    return ["slide; its middle, s", *("{} bodies, {} ms".format(*setting.split("; ")) for setting in settings),
             "slide, 200 against 100 bodies, %", "middle, the same, %", "middle, 1 against 2 ms, 200 bodies, %"], body
 
 
@@ -117,31 +111,25 @@ def meshes_table(rows: list[Row]) -> Cells:
     own = pick(rows, study="meshes")
     counts = list(dict.fromkeys(row.setting for row in own))
     body = []
-    for head in ("clamped", "free"):
-        for knot in KNOTS:
-            found = [one(own, knot=knot, head=head, setting=count) for count in counts]
-            times = {count: row.middle for count, row in zip(counts, found) if row}
-            body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts),
-                         apart(times.get("200"), times.get("400"))])
+    for knot, head in CASES:
+        times = {row.setting: row.middle for row in pick(own, knot=knot, head=head)}
+        body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts),
+                     apart(times.get("200"), times.get("400"))])
     return ["middle of the slide, s", *(f"{count} bodies" for count in counts), "400 against 200, %"], body
 
 
 def wiped_table(rows: list[Row]) -> Cells:
-    body = []
-    for head in ("clamped", "free"):
-        for knot in KNOTS:
-            pair = [one(rows, study=study, knot=knot, head=head, setting=USUAL) for study in ("knots", "paper")]
-            body.append([f"{knot}, {head}", *(figure_of(getattr(row, key) if row else None, 2) for row in pair
-                                              for key in ("rings", "skin"))])
-    return ["share that skin pressed on", "reflex: length", "reflex: skin", "Eq. 6: length", "Eq. 6: skin"], body
+    share = lambda row, key: figure_of(getattr(row, key) if row else None, 2)
+    return ["share that skin pressed on", "reflex: length", "reflex: skin", "Eq. 6: length", "Eq. 6: skin"], [
+        [f"{knot}, {head}", *(share(one(rows, study=study, knot=knot, head=head, setting=USUAL), key)
+                              for study in ("knots", "paper") for key in ("rings", "skin"))] for knot, head in CASES]
 
 
 def loose_table(rows: list[Row]) -> Cells:
-    body = [[row.knot, LOOSE[row.study], row.setting, figure_of(row.time, 2), row.types.replace(" ", ", "),
-             figure_of(row.span_from), figure_of(row.span_to)]
-            for row in rows if row.study in ("tighten", "form")]
     return ["knot", "the reflex begins", "Δ at the tail end, of that at the head end", "for, s",
-            "what there was, in turn", "span then, cm", "least span, cm"], body
+            "what there was, in turn", "span then, cm", "least span, cm"], [
+        [row.knot, LOOSE[row.study], row.setting, figure_of(row.time, 2), row.types.replace(" ", ", "),
+         figure_of(row.span_from), figure_of(row.span_to)] for row in rows if row.study in LOOSE]
 
 
 def grid_table(rows: list[Row], study: str) -> Cells:
@@ -154,16 +142,12 @@ def grid_table(rows: list[Row], study: str) -> Cells:
 def speed_table(rows: list[Row]) -> Cells:
     own = pick(rows, study="speed")
     cases = list(dict.fromkeys((row.knot, row.head) for row in own))
-    shifts = list(dict.fromkeys(row.setting.split("; ")[0] for row in own))
     body = []
-    for shift in shifts:
+    for shift in dict.fromkeys(row.setting.split("; ")[0] for row in own):
         law = law_speed(float(shift))
-        cells = []
-        for knot, head in cases:
-            pair = [one(own, knot=knot, head=head, setting=f"{shift}; {step}") for step in (5, 2)]
-            cells.append("; ".join(f"{row.speed / law:.2f}" + ("" if row.slid == "yes" else "*") for row in pair if row
-                                   and row.way))
-        body.append([shift, figure_of(law), *cells])
+        pairs = ([one(own, knot=knot, head=head, setting=f"{shift}; {step}") for step in (5, 2)] for knot, head in cases)
+        body.append([shift, figure_of(law), *("; ".join(f"{row.speed / law:.2f}" + ("" if row.slid == "yes" else "*")
+                                                        for row in pair if row and row.way) for pair in pairs)])
     return ["Δ, cm", "law, cm/s", *(f"{knot}, {head}: measured of law, 5 ms; 2 ms" for knot, head in cases)], body
 
 
@@ -198,23 +182,19 @@ def robust_table(rows: list[Row]) -> Cells:
 def claims_table(rows: list[Row]) -> Cells:
     body = []
     for study, name in (("knots", "reflex"), ("paper", "Eq. 6")):
-        for knot in KNOTS:
-            row = one(rows, study=study, knot=knot, head="clamped", setting=USUAL)
-            if row is not None and row.behind is not None:
-                body.append([knot, name, figure_of(row.behind, 2), figure_of(row.near, 2), row.rank,
-                             figure_of(row.rough_space, 2),
-                             figure_of(row.rough_time, 2), figure_of(row.likeness, 2)])
+        for row in pick(rows, study=study, head="clamped", setting=USUAL):
+            if row.behind is not None:
+                body.append([row.knot, name, figure_of(row.behind, 2), figure_of(row.near, 2), row.rank,
+                             *(figure_of(value, 2) for value in (row.rough_space, row.rough_time, row.likeness))])
     return ["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it",
             "grows to the head", "roughness along the body", "roughness in time",
             "cosine with the curvature's gradient"], body
 
 
 def pull_table(rows: list[Row]) -> Cells:
-    body = [[row.knot, "Eq. 6 at all contacts" if row.setting == "paper" else "reflex, scene's Δ",
-             figure_of(row.pull, 2), row.held]
-            for row in pick(rows, study="pull")]
-    body += [[row.knot, f"reflex, Δ = {row.setting} cm", figure_of(row.pull, 2), row.held]
-             for row in pick(rows, study="pull_shift")]
+    laws = {"paper": "Eq. 6 at all contacts", "reflex": "reflex, scene's Δ"}
+    runs = [*pick(rows, study="pull"), *pick(rows, study="pull_shift")]
+    body = [[row.knot, laws.get(row.setting, f"reflex, Δ = {row.setting} cm"), figure_of(row.pull, 2), row.held] for row in runs]
     return ["knot", "law", "pull, N", "type held"], sorted(body, key=lambda cells: cells[0])
 
 
@@ -319,24 +299,21 @@ TABLES: dict[str, Callable[[list[Row]], Cells]] = {
 
 def draw_ways(axes: Any, folder: Path) -> None:
     """The clamped knots without a head plate, here and, from the same state at the start of the slide, in MuJoCo."""
-    table = reflex_runs.read_sweep(folder / "beside/table.csv")
-    rows = reflex_runs.sweep_rows("beside", table, reflex_runs.settings_of("beside", table))
-    for cell, row in enumerate(rows):
-        if row.setting != "with drag" or row.head != "clamped":
+    for cell in read_cells(folder / "beside"):
+        scene, look = cell.axes["scene"], plots.KNOTS[plots.knot_of(cell.axes["scene"])]
+        if float(cell.axes["drag.normal"]) == 0 or scene.endswith("_free"):
             continue
-        there = folder / f"mujoco/{table.axes['scene'][cell]}-from_the_slide.h5"
-        for path, style in ((log_of(folder / "beside", str(cell)), {"marker": plots.KNOTS[row.knot].marker, "markevery": (0.0, 0.2)}),
-                            (there, {"ls": "--"})):
-            log = HagfishLog(path)
+        there = HagfishLog(folder / f"mujoco/{scene}-from_the_slide.h5")
+        for log, style in ((cell.log, {"marker": look.marker, "markevery": (0.0, 0.2)}), (there, {"ls": "--"})):
             frames = log.in_phase("slide")
             time = log["/trajectory/time"][frames]
-            axes.plot(time - time[0], log["/knot/head_end"][frames], color=plots.KNOTS[row.knot].colour, ms=4, **style)
+            axes.plot(time - time[0], log["/knot/head_end"][frames], color=look.colour, ms=4, **style)
     axes.set(xlabel="since the slide began, s", ylabel="head end, cm from the head", ylim=(0, None))
 
 
 def draw_torque(axes: Any, folder: Path) -> None:
     """The reflex's own torque along the body beside the gradient of curvature, half way through the slide of the 3_1."""
-    log = HagfishLog(log_of(folder / "knots", "0"))
+    log = next(read_cells(folder / "knots")).log
     frames = log.intervals_in("slide")
     frame = frames[frames.size // 2: frames.size // 2 + 1]
     _, joint, kind = log.hinges()

@@ -1,7 +1,7 @@
 """What the study of the reflex measured: a row a run, read from its sweeps and logs (`read_study`), or from the table that is kept
 of them (`read_table`), of which the page's tables are made."""
 
-from collections.abc import Iterable
+from collections.abc import Callable
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
@@ -12,8 +12,7 @@ import plots
 import skin
 import tables
 from hagfish_log import HagfishLog
-from slides import log_of
-from sweep_columns import SweepTable, read_sweep
+from sweep_columns import Cell, read_cells
 
 APART = 5  # frames between two shapes of which the wave's speed is found: 0.1 s
 KINDS = ("bend_y", "bend_z")
@@ -67,11 +66,8 @@ UNITS = {"way": "way_cm", "time": "time_s", "torque": "torque_dyn_cm", "effort":
 HEADING = [UNITS.get(field.name, field.name) for field in fields(Row)]
 
 
-def knot_of(scene: str) -> str:
-    """The type that a scene of this name is of."""
-    bare = scene.removesuffix("_free")
-    return next(knot for name, knot in plots.SCENES.items() if bare.endswith(f"_{name}") and
-                (name != "overhand" or not bare.endswith("double_overhand")))
+def head_of(scene: str) -> str:
+    return "free" if scene.endswith("_free") else "clamped"
 
 
 def number(text: str) -> str:
@@ -83,49 +79,51 @@ def number(text: str) -> str:
         return first
 
 
-def sweep_rows(study: str, table: SweepTable, settings: Iterable[str]) -> list[Row]:
-    rows = []
-    for i, setting in enumerate(settings):
-        scene, outcome = table.axes["scene"][i], table.texts["outcome"][i]
-        unmet, of = table.texts["unmet"][i].split("; "), {key: float(values[i]) for key,
-                                                          values in table.figures.items()}
-        held = outcome == "ok"
-        known = lambda value: None if np.isnan(value) else value
-        rows.append(Row(study, knot_of(scene), "free" if scene.endswith("_free") else "clamped", setting,
-                        known(of["slide_distance_cm"]), known(of["duration_s"] - of["slide_from_s"]),
-                        "yes" if held else "no",
-                        "yes" if held and "slide" not in unmet and of["slide_distance_cm"] > 0 else "no",
-                        pull=known(of["pull_N"])))
-    return rows
+def sweep_row(study: str, setting: str, cell: Cell) -> Row:
+    scene, of, held = cell.axes["scene"], cell.figures, cell.outcome == "ok"
+    known = lambda value: None if np.isnan(value) else value
+    slid = held and "slide" not in cell.unmet and of["slide_distance_cm"] > 0
+    return Row(study, plots.knot_of(scene), head_of(scene), setting, known(of["slide_distance_cm"]),
+               known(of["duration_s"] - of["slide_from_s"]), "yes" if held else "no", "yes" if slid else "no", pull=known(of["pull_N"]))
 
 
-def plain_settings(table: SweepTable) -> list[str]:
-    """The values of the first axis besides the scene; of animals their number."""
-    keys = [key for key in table.axes if key != "scene"]
-    if "specimen.length" in keys:
-        lengths = list(dict.fromkeys(table.axes["specimen.length"]))
-        return [str(1 + lengths.index(value)) for value in table.axes["specimen.length"]]
-    return [number(value) for value in table.axes[keys[0]]] if keys else [""] * len(table.axes["scene"])
+Axes = dict[str, str]  # of a run: its place on each axis of the sweep
 
 
-def knockout_settings(table: SweepTable) -> list[str]:
-    of = lambda key: table.axes[f"controller.reflex.{key}"]
-    out = []
-    for shift, y, z, twist, gate, reach in zip(*map(of, ("shift", "bend_y", "bend_z", "twist", "gate", "reach"))):
-        kinds = [name for name, on in (("bend Y", y), ("bend Z", z), ("twist", twist)) if on == "true"]
-        if gate == "touch":
-            out.append(f"joints within {float(reach):g} cm of a contact")
-        elif len(kinds) < 3:
-            out.append("both bends" if len(kinds) == 2 else f"{kinds[0]} alone")
-        else:
-            out.append("all" if float(shift) >= 1e-3 else "nothing copied" if float(shift) > 0
-                       else "headward neighbour")
-    return out
+def knockout(axes: Axes) -> str:
+    of = lambda key: axes[f"controller.reflex.{key}"]
+    kinds = [name for name, key in (("bend Y", "bend_y"), ("bend Z", "bend_z"), ("twist", "twist")) if of(key) == "true"]
+    if of("gate") == "touch":
+        return f"joints within {float(of('reach')):g} cm of a contact"
+    if len(kinds) < 3:
+        return "both bends" if len(kinds) == 2 else f"{kinds[0]} alone"
+    return "all" if float(of("shift")) >= 1e-3 else "nothing copied" if float(of("shift")) > 0 else "headward neighbour"
 
 
-def both_axes(table: SweepTable, first: str, second: str) -> list[str]:
+def both_axes(first: str, second: str) -> Callable[[Axes], str]:
     """Two settings in one: "100 bodies, 2 ms"."""
-    return [f"{number(a)}; {1000 * float(b):g}" for a, b in zip(table.axes[first], table.axes[second])]
+    return lambda axes: f"{number(axes[first])}; {1000 * float(axes[second]):g}"
+
+
+SETTING: dict[str, Callable[[Axes], str]] = {  # what a run of a sweep differs by, in words
+    "paper": lambda axes: "100; 2", "knots": both_axes("model.bodies", "time.step"), "knockouts": knockout,
+    "beside": lambda axes: "with drag" if float(axes["drag.normal"]) > 0 else "no drag",
+    "speed": both_axes("controller.reflex.shift", "time.step"), "pull": lambda axes: "reflex" if "reflex" in axes["scene"] else "paper"}
+
+
+def settings_of(study: str, runs: list[Axes]) -> list[str]:
+    """Of runs of one sweep: the values of the first axis besides the scene; of animals their number; of axes that go together what a run
+    changes of the first run's."""
+    if study in SETTING:
+        return [SETTING[study](axes) for axes in runs]
+    keys = [key for key in runs[0] if key not in ("scene", "seed")]
+    if study == "free":
+        changed = lambda axes: [f"{key.split('.')[-1]} = {number(axes[key])}" for key in keys if axes[key] != runs[0][key]]
+        return [next(iter(changed(axes)), "as it is") for axes in runs]
+    if "specimen.length" in keys:
+        lengths = list(dict.fromkeys(axes["specimen.length"] for axes in runs))
+        return [str(1 + lengths.index(axes["specimen.length"])) for axes in runs]
+    return [number(axes[keys[0]]) if keys else "" for axes in runs]
 
 
 def shape(log: HagfishLog, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
@@ -242,35 +240,6 @@ def commit_of(folder: Path) -> str:
         return file.readline().split()[-1]
 
 
-def settings_of(study: str, table: SweepTable) -> list[str]:
-    """What each run of a sweep differs by, in words."""
-    if study == "paper":
-        return ["100; 2"] * len(table.axes["scene"])
-    if study == "knots":
-        return both_axes(table, "model.bodies", "time.step")
-    if study == "beside":
-        return ["with drag" if float(drag) > 0 else "no drag" for drag in table.axes["drag.normal"]]
-    if study == "knockouts":
-        return knockout_settings(table)
-    if study == "speed":
-        return both_axes(table, "controller.reflex.shift", "time.step")
-    if study == "pull":
-        return ["reflex" if "reflex" in scene else "paper" for scene in table.axes["scene"]]
-    return changed_settings(table) if study == "free" else plain_settings(table)
-
-
-def changed_settings(table: SweepTable) -> list[str]:
-    """What a run changes, of axes that go together: their first values are the scene's own."""
-    keys = [key for key in table.axes if key != "scene" and key != "seed"]
-    first = {key: table.axes[key][0] for key in keys}
-    out = []
-    for cell in range(len(table.axes["scene"])):
-        changed = [f"{key.split('.')[-1]} = {number(table.axes[key][cell])}" for key in keys
-                   if table.axes[key][cell] != first[key]]
-        out.append(changed[0] if changed else "as it is")
-    return out
-
-
 def read_laws(part: str, path: Path) -> list[Row]:
     return [Row(part, line["knot"], line["head"], line["law"],
                 float(line["head_end_from_cm"]) - float(line["head_end_to_cm"]),
@@ -285,10 +254,10 @@ def log_row(study: str, path: Path) -> Row:
     head, time = log["/knot/head_end"][slide], log["/trajectory/time"][slide]
     scene, _, setting = path.stem.partition("-")
     held = str(log.attribute("status")) == "complete"
-    return Row(study, knot_of(scene), "free" if scene.endswith("_free") else "clamped", setting.replace("_", " "),
+    return Row(study, plots.knot_of(scene), head_of(scene), setting.replace("_", " "),
                float(head[0] - np.nanmin(head)), float(time[-1] - time[0]), "yes" if held else "no",
                "yes" if held and log["/trajectory/time"][-1] < log.scene()["time"]["duration"] - 1 else "no",
-               middle=middle_of(log, knot_of(scene)), commit=str(log.attribute("git_revision"))[:12])
+               middle=middle_of(log, plots.knot_of(scene)), commit=str(log.attribute("git_revision"))[:12])
 
 
 def read_loose(path: Path) -> list[Row]:
@@ -304,14 +273,13 @@ def read_study(folder: Path) -> dict[str, list[Row]]:
         own = folder / study
         if not (own / "table.csv").is_file():
             continue
-        table = read_sweep(own / "table.csv")
-        rows = sweep_rows(study, table, settings_of(study, table))
-        for cell, row in enumerate(rows):
-            if study in LOGGED and row.held == "yes":
-                LOGGED[study](row, HagfishLog(log_of(own, str(cell))))
-        for row in rows:
+        cells = list(read_cells(own))
+        settings = settings_of(study, [cell.axes for cell in cells])
+        parts[study] = [sweep_row(study, setting, cell) for setting, cell in zip(settings, cells)]
+        for row, cell in zip(parts[study], cells):
             row.commit = commit_of(own)
-        parts[study] = rows
+            if study in LOGGED and row.held == "yes":
+                LOGGED[study](row, HagfishLog(cell.path))
     for part in ("laws", "rate"):
         if (folder / f"{part}.csv").is_file():
             parts[part] = read_laws(part, folder / f"{part}.csv")

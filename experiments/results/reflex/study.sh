@@ -17,16 +17,9 @@ done
 } >"$out/animals.toml"
 "$hagfish" sweep "$out/animals.toml" --out "$out/animals"
 
-# in_python SCRIPT ARGUMENT... OUT: with the module as built; what is there already is not made again.
-in_python() {
-  [[ -e ${*: -1} ]] && return
-  PYTHONPATH=$root/build/release/experiments/python /usr/bin/python3 "$page/$1" "${@:2:$#-2}" "${*: -1}.part"
-  mv "${*: -1}.part" "${*: -1}"
-}
-in_python reflex_laws.py laws "$out/laws.csv"
-in_python reflex_laws.py rate "$out/rate.csv"
-in_python reflex_laws.py curves "$out/curves"
-in_python reflex_laws.py loose "$out/loose.csv"
+for made in laws.csv rate.csv curves loose.csv; do
+  [[ -e $out/$made ]] || { draw reflex_laws.py "${made%.csv}" "$out/$made.part" && mv "$out/$made.part" "$out/$made"; }
+done
 
 # in_mujoco NAME ARGUMENT...
 mkdir -p "$out/mujoco"

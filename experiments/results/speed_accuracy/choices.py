@@ -1,6 +1,6 @@
 """What each choice of the Table 1 scene costs and buys: the run with one choice changed, against the scene as it is.
 
-Usage: choices.py RUNS OUT_FOLDER. RUNS is what study.sh leaves.
+Usage: choices.py RUNS OUT_FOLDER. RUNS is what study.sh leaves. Needs the program as built (HAGFISH_PROGRAM).
 """
 
 from dataclasses import dataclass
@@ -53,7 +53,7 @@ class Run:
 
 def read_run(folder: Path, name: str) -> Run:
     log = HagfishLog(folder / f"{name}.h5")
-    unmet = audits.unmet(audits.read_findings(folder / f"{name}.check.csv"))
+    unmet = audits.unmet(audits.audit(log.path))
     slides = log.in_phase("slide")
     known = slides[np.isfinite(log["/knot/head_end"][slides])]
     force = read_means(log, "slide", FORCE_WINDOW).total

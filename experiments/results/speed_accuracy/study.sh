@@ -15,8 +15,8 @@ export -f integrate
 ties() {
   local knot bodies step rule
   local -A until=([overhand]=11.5 [figure_eight]=13)
-  tie() { printf 'unchecked_run\ttie_%s_%s_%s_%s_%s\t3\t%s\n' "$1" "$2" "$3" "$4" "$5" "living_$1 --qp $2 --log frames --set time.rule=$3 \
---set model.bodies=$4 --set time.step=$5 --set time.duration=${until[$1]} --set time.frame_interval=0.1 --set expect.types=[]"; }
+  tie() { job timed "tie_$1_$2_$3_$4_$5" 3 run "living_$1" --qp "$2" --log frames --set "time.rule=$3" --set "model.bodies=$4" \
+    --set "time.step=$5" --set "time.duration=${until[$1]}" --set time.frame_interval=0.1 --set 'expect.types=[]'; }
   for knot in overhand figure_eight; do
     for bodies in 400 200 100 50 25; do
       for step in 0.02 0.01 0.005 0.0025 0.00125; do
@@ -28,14 +28,12 @@ ties() {
   done
 }
 
-frames="--set time.frame_interval=0.05"
 # One choice of the scene changed at a time; `as_is` is none.
 choices() {
-  local name sets key
+  local name sets
   while read -r name sets; do
-    local line="table1 --qp active-set $frames"
-    for key in $sets; do line+=" --set $key"; done
-    printf 'timed_run\t%s\t7\t%s\n' "choice_$name" "$line"
+    # shellcheck disable=SC2086 # words
+    job timed "choice_$name" 7 run table1 --qp active-set --set time.frame_interval=0.05 ${sets:+--set ${sets// / --set }}
   done <<'LIST'
 as_is
 bodies_25 model.bodies=25
@@ -59,9 +57,9 @@ no_wall wall.present=false
 LIST
 }
 
-ties | work "$cores" "Knots that are tied"
-choices | work "$cores" "Choices of the scene"
-printf 'integrate\t%s\n' coil hanging whip | work "$cores" "Smooth motions"
+ties | work "Knots that are tied"
+choices | work "Choices of the scene"
+for motion in coil hanging whip; do job integrate $motion; done | work "Smooth motions"
 
 echo "Drawing"
 draw tying.py "$runs" "$out"

@@ -12,7 +12,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import cpu_of, moments_of, name_of, off, pick, places_of, presets
+from accuracy import cpu_of, handles_of, mark_presets, moments_of, name_of, off, pick, places_of, presets
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -78,7 +78,7 @@ def read_runs(folder: Path, knot: str) -> Rows:
 
 
 def one(rows: Rows, **wanted: object) -> dict[str, object]:
-    return next(row for row in rows if all(row[key] == value for key, value in wanted.items()))
+    return pick(rows, **wanted)[0]
 
 
 def shown(value: object) -> str:
@@ -128,11 +128,8 @@ def draw(rows: Rows, out: Path) -> None:
                 if bodies == LABELLED and back_end == "active-set":
                     texts += [(row["cpu_s"], row[measure], f"{row['step_ms']:g} ms", side)
                               for row, side in zip((own[-1], own[0]), ("above" if rule == "midpoint" else "right", "right"))]
-        for name, of in presets().items():
-            run = one(rows, knot=knot, back_end="active-set", **of)
-            axes.plot(run["cpu_s"], run[measure], "o", mfc="none", mec=plots.INK, ms=12, mew=0.9, zorder=4)
-            axes.annotate(name, (run["cpu_s"], run[measure]), (-7, -6), textcoords="offset points", fontsize=7.5, ha="right", va="top",
-                          style="italic")
+        run = lambda of, knot=knot: one(rows, knot=knot, back_end="active-set", **of)
+        mark_presets(axes, lambda of, run=run, measure=measure: (run(of)["cpu_s"], run(of)[measure]))
         axes.set(xscale="log", yscale="log", ylabel=MEASURES[measure], xlim=(0.06, 10), ymargin=0.1)
         low, high = axes.get_ylim()
         plots.plain_ticks(axes.yaxis, [tick for tick in (0.001, 0.01, 0.1, 1, 10, 100) if low <= tick <= high])
@@ -140,11 +137,7 @@ def draw(rows: Rows, out: Path) -> None:
         plots.label(axes, texts)
     for axes in panels[2:]:
         axes.set_xlabel("CPU time of the run, s")
-    line = lambda **of: plots.plt.Line2D([], [], **of)
-    handles = [line(label=look.label, **look.style) for look in METHODS.values()]
-    handles += [line(color=plots.GREY, marker="o", ls="", markersize=size, label=f"{bodies} bodies") for bodies, size in SIZES.items()]
-    plots.legend_above(figure, [*handles, line(color=plots.INK, marker="o", ls="", mfc="none", ms=11, label="presets")], 5, 0.075,
-                       columnspacing=1.2)
+    plots.legend_above(figure, handles_of(METHODS.values(), SIZES), 5, 0.075, columnspacing=1.2)
     plots.save(figure, out)
 
 

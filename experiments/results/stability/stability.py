@@ -3,11 +3,9 @@
 Usage: stability.py STABILITY.csv OUT_FOLDER (SCENE.png, stability.png, each with a PDF beside, and summary.md)
 """
 
+import re
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
@@ -18,8 +16,7 @@ from script import run_script
 from stability_picture import DARK, LOOKS, cell_grid, draw_cell, draw_summary
 from tables import read_csv, write_table
 
-LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
-CELL, LETTER = 0.3, 0.075  # inches, of a cell's side and of a label's letter
+CELL = 0.3  # inches, of a cell's side
 # Without the watch beside MuJoCo, which has none.
 METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "no_watch", "midpoint", "mujoco_euler",
            "mujoco_implicit", "mujoco_rk4"]
@@ -38,26 +35,6 @@ AS_IS = "as is"
 Cell = dict[str, str]
 
 
-@dataclass
-class Panel:
-    """One heat map: cells by row and column, as they are called."""
-
-    title: str
-    across: str  # what its columns are
-    rows: list[str]
-    columns: list[str]
-    cells: dict[tuple[str, str], Cell]
-
-    @property
-    def margin(self) -> float:
-        """Inches that the longest name of a row takes."""
-        return LETTER * max(map(len, self.rows)) + 0.25
-
-    @property
-    def size(self) -> tuple[float, float]:
-        return CELL * len(self.columns), CELL * len(self.rows)
-
-
 def read(path: Path) -> list[Cell]:
     cells = read_csv(path, ("scene", "level", "method", "h_ms", "outcome"))
     for cell in cells:
@@ -71,108 +48,39 @@ def step_of(cell: Cell) -> float:
     return float(cell["h_ms"])
 
 
-def panel_of(title: str, cells: list[Cell], row: Callable[[Cell], str], rows: list[str]) -> Panel:
-    """Over time steps."""
-    steps = [f"{step:g}" for step in sorted({step_of(cell) for cell in cells})]
-    return Panel(title, "h, ms", rows, steps, {(row(cell), f"{step_of(cell):g}"): cell for cell in cells})
-
-
-def draw_panel(axes: Any, panel: Panel) -> None:
-    cell_grid(axes, panel.rows, panel.columns)
-    axes.set_xlabel(panel.across)
-    for (row, column), cell in panel.cells.items():
-        letter, colour = LOOKS[cell["outcome"]]
-        draw_cell(axes, (panel.columns.index(column), panel.rows.index(row)), colour, cell["outcome"] != "not applicable", letter,
-                  "white" if cell["outcome"] in DARK else plots.INK)
-
-
-def legend(figure: Any, cells: list[Cell]) -> None:
-    seen = {cell["outcome"] for cell in cells}
-    patches = [Patch(fc=colour, ec="#999999", label=f"{name} ({letter})" if letter else name)
-               for name, (letter, colour) in LOOKS.items() if name in seen]
-    figure.legend(handles=patches, loc="lower center", ncols=LEGEND_COLUMNS, fontsize=8, frameon=False)
-
-
-def by_level(cells: list[Cell]) -> list[tuple[str, list[Cell]]]:
-    """Level sweeps by method, the seeds aside; each with the level of the scene itself."""
-    levels = [cell["level"] for cell in cells if cell["level"] != AS_IS and not cell["level"].startswith("seed")]
-    groups = []
-    for method in METHODS:
-        own = [cell for cell in cells if cell["method"] == method and cell["level"] in levels]
-        if own:
-            groups.append((method, own))
-    return groups
-
-
 def level_order(level: str) -> float:
-    for word in level.split():
-        try:
-            return float(word)
-        except ValueError:
-            continue
-    return 0.0
-
-
-def panels_of(cells: list[Cell]) -> tuple[list[Panel], list[Panel]]:
-    """Methods and levels of stress, side by side; below them perturbed starts."""
-    whole = [cell for cell in cells if cell["level"] == AS_IS]
-    name = lambda cell: TITLES.get(cell["method"], cell["method"])
-    known = {cell["method"] for cell in whole}
-    upper = [panel_of("methods", whole, name, [TITLES.get(method, method) for method in METHODS if method in known])]
-    for method, own in by_level(cells):
-        upper.append(panel_of(TITLES.get(method, method), own, lambda cell: cell["level"],
-                              sorted({cell["level"] for cell in own}, key=level_order)))
-    seeds = [cell for cell in cells if cell["level"].startswith("seed")]
-    if not seeds:
-        return upper, []
-    number = lambda cell: f"{level_order(cell['level']):g}"
-    lower = Panel("perturbed starts, default", "seed", [f"{step:g} ms" for step in sorted({step_of(cell) for cell in seeds})],
-                  sorted({number(cell) for cell in seeds}, key=float),
-                  {(f"{step_of(cell):g} ms", number(cell)): cell for cell in seeds})
-    return upper, [lower]
+    return next((float(word) for word in level.split() if re.fullmatch(r"[\d.]+(?:e-?\d+)?", word)), 0.0)
 
 
 def draw_scene(scene: str, cells: list[Cell], png: Path) -> None:
-    """Cells of one size in every panel, laid out in inches."""
-    lines = [line for line in panels_of(cells) if line]
-    heights = [max(panel.size[1] for panel in line) + 0.75 for line in lines]
-    width = max(6.8, *(sum(panel.margin + panel.size[0] for panel in line) + 0.5 for line in lines))
-    height = sum(heights) + 0.4 + 0.2 * LEGEND_ROWS
-    figure, drawn, top = plt.figure(figsize=(width, height)), [], height - 0.65
-    for line, tall in zip(lines, heights):
-        left = 0.0
-        for panel in line:
-            wide, high = panel.size
-            left += panel.margin
-            axes = figure.add_axes((left / width, (top - high) / height, wide / width, high / height))
-            draw_panel(axes, panel)
-            drawn.append(axes)
-            left += wide
-        top -= tall
-    plots.name_panels(drawn, [panel.title for line in lines for panel in line])
-    figure.suptitle(SCENES.get(scene, scene), fontsize=11, y=1 - 0.08 / height, va="top")
-    legend(figure, cells)
+    """Outcomes over steps: a row a method, then one a method and level of stress or perturbed start."""
+    cells = sorted(cells, key=lambda cell: (cell["level"] != AS_IS, METHODS.index(cell["method"]), level_order(cell["level"])))
+    name = lambda cell: TITLES.get(cell["method"], cell["method"]) + (f", {cell['level']}" if cell["level"] != AS_IS else "")
+    rows, steps = list(dict.fromkeys(map(name, cells))), sorted({step_of(cell) for cell in cells})
+    figure, axes = plt.subplots(figsize=(6.8, CELL * len(rows) + 1.6), layout="constrained")
+    cell_grid(axes, rows, [f"{step:g}" for step in steps])
+    for cell in cells:
+        letter, colour = LOOKS[cell["outcome"]]
+        draw_cell(axes, (steps.index(step_of(cell)), rows.index(name(cell))), colour, cell["outcome"] != "not applicable", letter,
+                  "white" if cell["outcome"] in DARK else plots.INK)
+    axes.set(title=SCENES.get(scene, scene), xlabel="h, ms", aspect="equal")
+    seen = {cell["outcome"] for cell in cells}
+    patches = [Patch(fc=colour, ec="#999999", label=f"{name} ({letter})" if letter else name)
+               for name, (letter, colour) in LOOKS.items() if name in seen]
+    axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.02, 1), frameon=False)
     plots.save(figure, png)
 
 
-def survived(cells: list[Cell]) -> tuple[str, float | None]:
-    """The largest step from which every smaller one is ok, as text and in ms (None where there is none)."""
-    if not cells:
-        return "", None
-    if all(cell["outcome"] == "not applicable" for cell in cells):
-        return "n/a", None
-    largest = None
+def survived(cells: list[Cell]) -> str:
+    """The largest step from which every smaller one is ok, ms, and what comes first beyond it."""
+    if not cells or all(cell["outcome"] == "not applicable" for cell in cells):
+        return "n/a" if cells else ""
+    largest = "none"
     for cell in sorted(cells, key=step_of):
         if cell["outcome"] != "ok":
-            break
-        largest = step_of(cell)
-    if all(cell["outcome"] == "ok" for cell in cells):
-        return f"all ({largest:g})", largest
-    return f"{'none' if largest is None else format(largest, 'g')} ({first_failure(cells)})", largest
-
-
-def first_failure(cells: list[Cell]) -> str:
-    return next(cell["outcome"] for cell in sorted(cells, key=step_of) if cell["outcome"] != "ok")
+            return f"{largest} ({cell['outcome']})"
+        largest = f"{step_of(cell):g}"
+    return f"all ({largest})"
 
 
 def scenes_of(cells: list[Cell]) -> list[str]:
@@ -194,9 +102,8 @@ def behind_mujoco(cells: list[Cell], method: str) -> list[str]:
 
 def summary_table(cells: list[Cell]) -> tuple[list[str], list[list[str]]]:
     methods = [m for m in METHODS if m in {cell["method"] for cell in cells}]
-    return ["scene", *(TITLES.get(m, m) for m in methods)], [[SCENES.get(scene, scene),
-                                                              *(survived(own_cells(cells, scene, m))[0] for m in methods)]
-                                                             for scene in scenes_of(cells)]
+    return ["scene", *(TITLES.get(m, m) for m in methods)], [
+        [SCENES.get(scene, scene), *(survived(own_cells(cells, scene, m)) for m in methods)] for scene in scenes_of(cells)]
 
 
 def write_tables(cells: list[Cell], out: Path) -> None:

@@ -47,7 +47,7 @@ rows="default no_watch midpoint violated baumgarte_0.2 baumgarte_1"
 line() {
   local h method
   for h in $3; do
-    for method in $4; do printf 'cell\t%s\t%s\t%s\t%s\t%s\n' "$1" "$2" "$method" "$h" "${5:-}"; done
+    for method in $4; do printf '%s\t' "$h" && job cell "$1" "$2" "$method" "$h" "${5:-}"; done
   done
 }
 pull() { echo "script.knots=[[0,$1,0,0],[1,$1,0,0]]"; }
@@ -106,7 +106,7 @@ list() {
 }
 
 # Large steps first: they are quick and show the most.
-list | sort -t$'\t' -k5,5gr | work "$cores" cells
+list | sort -gr | cut -f 2- | work Cells
 
 {
   head -qn 1 "$runs"/whip_as-is_default_1.csv

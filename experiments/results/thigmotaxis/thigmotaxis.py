@@ -12,8 +12,7 @@ import tables
 from hagfish_log import HagfishLog
 from overview import bending
 from script import run_script
-from slides import log_of
-from sweep_columns import SweepTable, read_sweep
+from sweep_columns import read_cells, read_sweep
 
 LAWS = {("paper", "centreline"): "two contacts", ("paper", "skin"): "two contacts, at the skin",
         ("all_contacts", "skin"): "all contacts, at the skin", ("all_contacts", "centreline"): "all contacts"}
@@ -31,9 +30,8 @@ def knot_of(scene: str) -> tuple[str, str]:
     return plots.SCENES[name.removesuffix("_free")], "free" if name.endswith("_free") else "held"
 
 
-def law_of(table: SweepTable, cell: int) -> str:
-    axes = table.axes
-    return LAWS[axes["controller.law"][cell], axes["controller.eq6_at"][cell]] if "controller.law" in axes else REFLEX
+def law_of(axes: dict[str, str]) -> str:
+    return LAWS[axes["controller.law"], axes["controller.eq6_at"]] if "controller.law" in axes else REFLEX
 
 
 def work_per_cm(log: HagfishLog, way: float) -> tuple[float, float]:
@@ -51,22 +49,18 @@ def capacity(log: HagfishLog) -> float:
 
 def law_rows(folder: Path) -> list[list[str]]:
     rows = []
-    for grid in ("laws", "reflex"):
-        table = read_sweep(folder / grid / "table.csv")
-        for cell, scene in enumerate(table.axes["scene"]):
-            of = {key: values[cell] for key, values in table.figures.items()}
-            log = HagfishLog(log_of(folder / grid, str(cell)))
-            knot, head = knot_of(scene)
-            if not table.texts["slide"][cell]:
-                rows.append([knot, head, law_of(table, cell), *["-"] * 3, "never slides", *["-"] * 4])
-                continue
-            travel = "-" if np.isnan(of["curvature_travel_cm"]) else f"{of['curvature_travel_cm']:.1f} ({of['curvature_correlation']:.2f})"
-            all_work, thigmotaxis = work_per_cm(log, of["slide_distance_cm"])
-            met = "" if law_of(table, cell) == REFLEX else f"{of['eq6_percent']:.0f}"
-            rows.append([knot, head, law_of(table, cell), f"{of['slide_distance_cm']:.1f}",
-                         f"{of['tail_distance_cm']:.1f} of {of['taper_asks_cm']:.1f}",
-                         travel, table.texts["slide"][cell], met,
-                         f"{of['largest_torque_dyn_cm'] / capacity(log):.2f}", f"{all_work:.2g}", f"{thigmotaxis:.2g}"])
+    for cell in (cell for grid in ("laws", "reflex") for cell in read_cells(folder / grid)):
+        of, law = cell.figures, law_of(cell.axes)
+        first = [*knot_of(cell.axes["scene"]), law]
+        if not cell.texts["slide"]:
+            rows.append([*first, *["-"] * 3, "never slides", *["-"] * 4])
+            continue
+        travel = "-" if np.isnan(of["curvature_travel_cm"]) else f"{of['curvature_travel_cm']:.1f} ({of['curvature_correlation']:.2f})"
+        all_work, thigmotaxis = work_per_cm(cell.log, of["slide_distance_cm"])
+        met = "" if law == REFLEX else f"{of['eq6_percent']:.0f}"
+        rows.append([*first, f"{of['slide_distance_cm']:.1f}", f"{of['tail_distance_cm']:.1f} of {of['taper_asks_cm']:.1f}", travel,
+                     cell.texts["slide"], met, f"{of['largest_torque_dyn_cm'] / capacity(cell.log):.2f}", f"{all_work:.2g}",
+                     f"{thigmotaxis:.2g}"])
     order = [*LAWS.values(), REFLEX]
     return sorted(rows, key=lambda row: (row[0], row[1] == "free", order.index(row[2])))
 
@@ -94,17 +88,15 @@ def run_rows(folder: Path, most: float) -> list[list[str]]:
 
 def draw(folder: Path, path: Path) -> None:
     """Curvature along the body through the slides: knots by laws."""
-    cells: dict[tuple[str, str], Path] = {}
-    for grid in ("laws", "reflex"):
-        table = read_sweep(folder / grid / "table.csv")
-        for cell, scene in enumerate(table.axes["scene"]):
-            knot, head = knot_of(scene)
-            if head == "held":
-                cells[knot, law_of(table, cell)] = log_of(folder / grid, str(cell))
+    cells = {}
+    for cell in (cell for grid in ("laws", "reflex") for cell in read_cells(folder / grid)):
+        knot, head = knot_of(cell.axes["scene"])
+        if head == "held":
+            cells[knot, law_of(cell.axes)] = cell.log
     titles = [f"{plots.KNOTS[knot].label.split()[0]}: {law}" for knot in plots.KNOTS for law in DRAWN]
     figure, panels = plots.panels(len(plots.KNOTS), len(DRAWN), (8.6, 8.4), titles, sharex=True)
     for axes, (knot, law) in zip(panels, [(knot, law) for knot in plots.KNOTS for law in DRAWN]):
-        log = HagfishLog(cells[knot, law])
+        log = cells[knot, law]
         time, slide = log["/trajectory/time"], log.in_phase("slide")
         start, end = time[slide[0]], time[slide[-1]]
         shown = np.flatnonzero((time >= start - BEFORE) & (time <= end + AFTER))
@@ -133,7 +125,7 @@ def main(folder: Path) -> None:
                                                "work, erg/cm", "of it f_thigmo"], law_rows(folder))
     tables.write_table(folder, "thigmotaxis_runs", ["what is changed", "slide by both ends", "least share, %", "median share, %",
                                                     "least steps that meet Eq. 6, %", "largest torque, of capacity", "which do not"],
-                       run_rows(folder, capacity(HagfishLog(log_of(folder / "laws", "0")))))  # one animal
+                       run_rows(folder, capacity(next(read_cells(folder / "laws")).log)))  # one animal
     draw(folder, folder / "thigmotaxis.png")
 
 

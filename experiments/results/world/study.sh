@@ -6,20 +6,12 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
-# sweep GRID.toml FOLDER KIND PARTS: a part of the grid after the other, and of each log what is needed.
-sweep() {
-  for ((part = 1; part <= $4; ++part)); do
-    "$hagfish" sweep "$1" --out "$2" --part "$part/$4"
-    draw world_logs.py "$3" "$2/logs"
-  done
-}
-
 # A part has at most eight runs.
-sweep "$grids/holes.toml" "$out/holes" hole 6
-sweep "$grids/hole_map.toml" "$out/hole_map" pull 12
-sweep "$grids/hole_chance.toml" "$out/hole_chance" pull 6
-sweep "$grids/skin.toml" "$out/skin" skin 4
-sweep "$grids/robot.toml" "$out/robot" robot 2
+swept "$grids/holes.toml" "$out/holes" 6 world_logs.hole
+swept "$grids/hole_map.toml" "$out/hole_map" 12 world_logs.pull
+swept "$grids/hole_chance.toml" "$out/hole_chance" 6 world_logs.pull
+swept "$grids/skin.toml" "$out/skin" 4 world_logs.skin
+swept "$grids/robot.toml" "$out/robot" 2 world_logs.robot
 
 # Holes of other widths, cm: an array of tables is no axis of a grid.
 scenes=()
@@ -37,7 +29,7 @@ done
   echo "[[axis]]"
   echo "scene = [$(IFS=,; echo "${scenes[*]}")]"
 } >"$out/hole_widths.toml"
-sweep "$out/hole_widths.toml" "$out/hole_widths" pull 14
+swept "$out/hole_widths.toml" "$out/hole_widths" 14 world_logs.pull
 
 # Without a knot: a wave of `angle` (rad) and `length` (body lengths) runs to the head once in `period` (s), from eight phases.
 mkdir -p "$out/waves"
@@ -48,7 +40,7 @@ for wave in "0.5 1 2" "0.5 1 1" "0.5 1 0.5" "1 1 2" "1 1 1" "0.5 0.6 1" "0.5 0.6
     # shellcheck disable=SC2086 # three numbers
     draw world_wave.py $wave $eighth "$name.csv" "$name.toml"
     "$hagfish" run "$name.toml" --out "$name.h5" --force --quiet
-    draw world_logs.py wave "$out/waves"
+    draw taken.py world_logs.wave "$out/waves"
   done
 done
 

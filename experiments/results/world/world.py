@@ -1,6 +1,6 @@
 """Tables of a world to knot in: out of a hole with knots and without, the skin that knots sweep, and a robot on a floor.
 
-Usage: world.py FOLDER, of study.sh, of what world_logs.py took of its logs.
+Usage: world.py FOLDER, of study.sh, of what taken.py kept of its logs.
 """
 
 from pathlib import Path
@@ -10,7 +10,8 @@ import numpy as np
 
 import tables
 from script import run_script
-from world_logs import LAWS, taken
+from taken import taken
+from world_logs import LAWS
 
 
 def number(value: float, digits: int = 3) -> str:

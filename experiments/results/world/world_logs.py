@@ -1,11 +1,7 @@
-"""What tables and figures of a world to knot in need of logs: a JSON file for each, after which the log is removed.
-
-Usage: world_logs.py KIND FOLDER, of study.sh: all logs of FOLDER, each of a hole, wave, pull, skin or robot (KIND).
-Needs the program as built (HAGFISH_PROGRAM).
-"""
+"""What tables and figures of a world to knot in need of logs (taken.py): of a hole, wave, pull, skin or robot. Needs the program as built
+(HAGFISH_PROGRAM)."""
 
 import csv
-import json
 import subprocess
 import tempfile
 from pathlib import Path
@@ -15,18 +11,10 @@ import numpy as np
 
 import audits
 from hagfish_log import HagfishLog
-from script import HAGFISH, run_script, whole
+from script import HAGFISH
 
 SETTLED = 4.0  # s, after which a wave runs evenly
-
-
 LAWS = {"all_contacts": "Eq. 6", "reflex": "reflex"}
-
-
-def taken(folder: Path) -> list[dict[str, Any]]:
-    """What was taken of the logs of a folder, in the order of their names, which numbers are."""
-    paths = sorted(folder.glob("*.json"), key=lambda path: (len(path.stem), path.stem) if path.stem.isdigit() else (0, path.stem))
-    return [json.loads(path.read_text(encoding="utf-8")) for path in paths]
 
 
 def knot_and_law(log: HagfishLog) -> dict[str, str]:
@@ -38,14 +26,6 @@ def types(log: HagfishLog) -> np.ndarray:
     """The knot's name at each frame."""
     names = log.named("knot", by="knot_invariants")
     return np.array([names.get(f"det={d},v2={v}", "") for d, v in zip(log["/knot/determinant"], log["/knot/v2"])])
-
-
-def both_ends(log: HagfishLog) -> float:
-    """Share of a slide by both ends, %; nan where there was none."""
-    with tempfile.TemporaryDirectory() as folder:
-        table = Path(folder) / "check.csv"
-        subprocess.run([HAGFISH, "check", log.path, "--csv", table], check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return audits.value_of(audits.read_findings(table), "slide of both ends")
 
 
 def first(time: np.ndarray, where: np.ndarray) -> float:
@@ -108,20 +88,5 @@ def robot(log: HagfishLog) -> dict[str, Any]:
     became = "it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot"
     return {"weight": abs(scene["gravity"][2]) / 981, "drag": scene["drag"]["normal"] / 10, "mass": scene["specimen"]["mass"] / 1e3,
             "capacity": scene["active"]["capacity"] / 1e7,
-            "stiffness": scene["active"]["stiffness"] / 4e7, "became": became, "way": way, "share": both_ends(log),
+            "stiffness": scene["active"]["stiffness"] / 4e7, "became": became, "way": way, "share": audits.value_of(audits.audit(log.path), "slide of both ends"),
             "torque": float(np.nanmax(np.abs(log["/mean/forces/active"][:, 6:]))) / 1e7, "penetration": penetration(log)}
-
-
-KINDS = {of.__name__: of for of in (hole, wave, pull, skin, robot)}
-
-
-def main(kind: Path, folder: Path) -> None:
-    for path in sorted(folder.glob("*.h5")):
-        found = KINDS[str(kind)](HagfishLog(path))
-        with whole(path.with_suffix(".json")) as file:
-            file.write_text(json.dumps(found) + "\n", encoding="utf-8")
-        path.unlink()
-
-
-if __name__ == "__main__":
-    run_script(__doc__, ["KIND", "FOLDER"], main)

@@ -10,11 +10,11 @@ from script import run_script
 FACE, TUBE, RINGS = 2.0, 0.4, 4  # cm: x of the plate's face, a ring's radius; how many rings
 
 
-def main(width: Path, scene: Path, out: Path) -> None:
+def main(width: float, scene: Path, out: Path) -> None:
     text = scene.read_text(encoding="utf-8")
     obstacles = [f'[[obstacle]]\nname = "plate"\nkind = "plane"\npoint = [{FACE}, 0.0, 0.0]\nnormal = [1.0, 0.0, 0.0]\nneck = "1 L"  # holds nothing\n']
     for ring in range(RINGS):
-        inner = float(str(width)) / 2 + 2 * TUBE * ring
+        inner = width / 2 + 2 * TUBE * ring
         obstacles.append(f'[[obstacle]]\nname = "ring {ring + 1}"\nkind = "ring"\ncentre = [{FACE - TUBE}, 0.0, 0.0]\naxis = [1.0, 0.0, 0.0]\n'
                          f'inner_radius = {inner:g}\nradius = {TUBE}\n')
     before, behind = text.index("[[obstacle]]"), text.index("[controller]")

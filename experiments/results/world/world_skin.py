@@ -1,6 +1,6 @@
 """Where knots sweep the skin on their way to the head and on their way back, a panel a knot and law.
 
-Usage: world_skin.py FOLDER OUT.png, of study.sh, of what world_logs.py took of the logs of FOLDER.
+Usage: world_skin.py FOLDER OUT.png, of study.sh, of what taken.py kept of the logs of FOLDER.
 """
 
 from pathlib import Path
@@ -11,7 +11,8 @@ from matplotlib.patches import Patch
 
 import plots
 from script import run_script
-from world_logs import LAWS, taken
+from taken import taken
+from world_logs import LAWS
 
 NEVER, THERE, BACK = 0, 1, 2
 COLOURS = {NEVER: plots.GRID, THERE: plots.BLUE, BACK: plots.ORANGE}

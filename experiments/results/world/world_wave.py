@@ -14,14 +14,14 @@ STATIONS, STEPS = 41, 16  # along the body, in a period
 HELD, RISE = 0.07, 0.1  # of the length: what is in the hole stays straight, and over what the wave grows behind it
 
 
-def main(angle: Path, length: Path, period: Path, phase: Path, program: Path, scene: Path) -> None:
-    k, omega = 2 * np.pi / float(str(length)), 2 * np.pi / float(str(period))
-    turn = 2 * np.pi * float(str(phase))
+def main(angle: float, length: float, period: float, phase: float, program: Path, scene: Path) -> None:
+    k, omega = 2 * np.pi / length, 2 * np.pi / period
+    turn = 2 * np.pi * phase
     rows = ["time (s),station (L),bend_y (rad/L),bend_z (rad/L),twist (rad/L)"]
-    for t in np.arange(0, DURATION + 1e-9, float(str(period)) / STEPS):
+    for t in np.arange(0, DURATION + 1e-9, period / STEPS):
         for s in np.linspace(0, 1, STATIONS):
-            share = min(1, t / float(str(period))) * np.clip((s - HELD) / RISE, 0, 1)
-            rows.append(f"{t:.5f},{s:.4f},0,{float(str(angle)) * k * share * np.cos(k * s + omega * t + turn):.5f},0")
+            share = min(1, t / period) * np.clip((s - HELD) / RISE, 0, 1)
+            rows.append(f"{t:.5f},{s:.4f},0,{angle * k * share * np.cos(k * s + omega * t + turn):.5f},0")
     program.write_text("\n".join(rows) + "\n", encoding="utf-8")
     scene.write_text(f'''base = "hole_overhand"
 title = "Wave without a knot, head in a hole"

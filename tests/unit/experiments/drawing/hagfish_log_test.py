@@ -1,16 +1,11 @@
 """What cannot be read is said in one line; what is there is read as it is."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import h5py
 import numpy as np
 import pytest
 
 from hagfish_log import HagfishLog, LogError, Results
-
-DRAWING = Path(__file__).parents[4] / "experiments/drawing"
+from program import script
 
 
 def test_frames_are_those_that_every_dataset_holds(content, log):
@@ -107,13 +102,10 @@ def test_a_missing_attribute_of_results_is_named(tmp_path):
             ask()
 
 
-@pytest.mark.parametrize("script, outputs, missing", [
-    ("claim_row.py", ["row.csv"], "knot/head_end"), ("claim_row.py", ["row.csv"], "trajectory/phase"), ("figure8.py", ["8.png", "c.png"], "mean/thigmotaxis/lambda")])
-def test_a_script_says_which_dataset_is_missing_in_one_line(content, tmp_path, script, outputs, missing):
+@pytest.mark.parametrize("missing", ["knot/head_end", "trajectory/phase", "mean/thigmotaxis/lambda"])
+def test_a_script_says_which_dataset_is_missing_in_one_line(content, tmp_path, missing):
     del content.data[missing]
-    path = content.write(tmp_path / "log.h5")
-    done = subprocess.run([sys.executable, "-B", DRAWING / script, path, *(tmp_path / name for name in outputs)],
-                          capture_output=True, text=True)
-    assert done.returncode == 2
-    assert done.stderr == f"{script}: {path}: no dataset /{missing}\n"
-    assert not any((tmp_path / name).exists() for name in outputs)
+    path, outputs = content.write(tmp_path / "log.h5"), [tmp_path / "8.png", tmp_path / "c.png"]
+    done = script("drawing/figure8.py", path, *outputs)
+    assert (done.returncode, done.stderr) == (2, f"figure8.py: {path}: no dataset /{missing}\n")
+    assert not any(output.exists() for output in outputs)

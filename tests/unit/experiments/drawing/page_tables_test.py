@@ -11,6 +11,7 @@ import pytest
 import audits
 import benchmarks
 import claim_map
+import claim_row
 import claims
 import departures
 import films
@@ -57,12 +58,10 @@ def test_sliding_by_speed_and_stiffness(tmp_path):
     assert read(tmp_path, "sliding_stiffness")[1:] == [["1e+03", "3 of 10"], ["2e+03", "0 of 10"]]
 
 
-def test_claims_by_change(tmp_path):
-    growth = claims.NAMES[1]
-    measure = dict.fromkeys(claim_map.MEASURES, 0.1) | {"near_over_far": 2.0}
-    verdict = dict.fromkeys(claims.NAMES, "agrees")
-    runs = [claim_map.Claim(reading, "Table 1", 0.005, seed, outcome, verdict | {growth: word}, measure)
-            for reading, seed, outcome, word in (("box", 1, "slid", "agrees"), ("box", 2, "slid", "undecided"), ("cone", 1, "jammed", "agrees"))]
+def test_claims_by_change():
+    run = lambda reading, outcome, word: {"reading": reading, "change": "Table 1", "step": 0.005, "outcome": outcome} | dict.fromkeys(
+        claim_row.MEASURES, 0.1) | dict.fromkeys(claims.NAMES, "agrees") | {"near_over_far": 2.0, claims.NAMES[1]: word}
+    runs = [run("box", "slid", "agrees"), run("box", "slid", "undecided"), run("cone", "jammed", "agrees")]
     assert claim_map.summary(runs)[0] == ["Table 1", "2 of 2", "2", "undecided", "0 of 1", "", "", "agrees", "0.1", "0.1", "agrees", "0.1", "agrees"]
 
 

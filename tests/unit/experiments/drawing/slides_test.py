@@ -82,7 +82,7 @@ def test_a_complete_run_may_have_failed(content, log):
 def sweep(content, tmp_path):
     """A sweep of one run that fails the bound on penetration."""
     def write(unmet="penetration"):
-        write_csv(tmp_path / "table.csv", ["cell", *TEXTS, *FIGURES], [[0, "ok", unmet, "", "3_1", *[1.0] * len(FIGURES)]])
+        write_csv(tmp_path / "table.csv", ["cell", *TEXTS, *FIGURES], [[0, "ok", unmet, "", "3_1", "", *[1.0] * len(FIGURES)]])
         (tmp_path / "logs").mkdir()
         content.write(tmp_path / "logs/0.h5")
         return slides.read_slides(tmp_path)

@@ -26,7 +26,7 @@ def test_csv_to_six_digits_and_back(tmp_path):
     (["not applicable"] * 3, "n/a"), ([], "")])
 def test_largest_step_that_a_method_survives(outcomes, text):
     cells = [{"h_ms": h, "outcome": outcome} for h, outcome in zip(("1", "2", "5"), outcomes)]
-    assert stability.survived(cells[::-1])[0] == text
+    assert stability.survived(cells[::-1]) == text
 
 
 def test_an_outcome_or_method_that_no_figure_knows_is_refused(tmp_path):

@@ -1,7 +1,5 @@
 """What the study of few numbers reads from logs: torques of the numbers, and profiles of them by the knot's place."""
 
-import subprocess
-import sys
 import tomllib
 
 import numpy as np
@@ -11,14 +9,12 @@ from animal import spans
 from few_numbers import basis_torque
 from hagfish_log import HagfishLog
 from played_numbers import profile
-from program import ROOT, logged, sets
+from program import logged, script, sets
 
 BRIEF = sets("time.duration=14.5")
 
 
-def script(folder, name, *arguments):
-    command = [sys.executable, str(ROOT / "experiments/results/few_numbers" / name), *arguments]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True)
+STUDY = "results/few_numbers"
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +50,7 @@ def test_a_profile_is_of_means_by_place():
 
 
 def test_a_profile_is_a_scene_that_plays_it(folder):
-    assert script(folder, "played_numbers.py", "a.h5", "b.toml", "4", "--base", "few_numbers").returncode == 0
+    assert script(f"{STUDY}/played_numbers.py", "a.h5", "b.toml", 4, "few_numbers", folder=folder).returncode == 0
     log = HagfishLog(logged(folder, "b.toml", *BRIEF, out="b.h5"))
     basis = tomllib.loads((folder / "b.toml").read_text())["controller"]["reduced_basis"]
     frame = log.in_phase("slide")[10]
@@ -65,7 +61,7 @@ def test_a_profile_is_a_scene_that_plays_it(folder):
 
 def test_learned_shapes_make_up_the_forces_that_they_were_learned_from(folder):
     log = HagfishLog(logged(folder, "table1", "--set", "time.step=0.02", "--until", "slide", out="d.h5"))
-    done = script(folder, "sliding_shapes.py", "d.h5", "d.csv", "knot", "4")
+    done = script(f"{STUDY}/sliding_shapes.py", "d.h5", "d.csv", 4, folder=folder)
     said = float(done.stdout.split("hold ")[1].split(" %")[0]) / 100
     rows = np.loadtxt(folder / "d.csv", delimiter=",", skiprows=2)
     hinges, joint, kind = log.hinges()
@@ -90,6 +86,6 @@ def test_learned_shapes_make_up_the_forces_that_they_were_learned_from(folder):
 
 def test_a_log_without_numbers_is_one_line(folder):
     logged(folder, "table1", *sets("time.step=0.02", "time.duration=0.2"), out="c.h5")
-    done = script(folder, "played_numbers.py", "c.h5", "c.toml", "--base", "table1")
+    done = script(f"{STUDY}/played_numbers.py", "c.h5", "c.toml", 4, "table1", folder=folder)
     assert done.returncode == 2 and "c.h5: has no slide of a knot by a reduced basis" in done.stderr
     assert not (folder / "c.toml").exists()
