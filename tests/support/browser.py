@@ -1,6 +1,5 @@
 """A headless Chromium, told what to do over its debugging pipe: no other program and no network port takes part."""
 
-import base64
 import json
 import os
 import select
@@ -99,9 +98,6 @@ class Browser:
     def press(self, key: str, **more: Any) -> None:
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=key, **more)
-
-    def screenshot(self, png: Path) -> None:
-        png.write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
 
     def close(self) -> None:
         try:

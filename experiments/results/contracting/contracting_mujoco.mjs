@@ -2,8 +2,7 @@
 //   node experiments/results/contracting/contracting_mujoco.mjs FOLDER/node_modules/@mujoco/mujoco/mujoco.js MJCF TIED.toml RULE STEP OUT.json
 // RULE: Euler, implicitfast, discrete. The law is that of core/control/reflex.hpp, as mujoco_ref/closed_loop.cpp has it.
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
-import { resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { opened } from "../mujoco.mjs";
 
 const [library, mjcf, tied, rule, stepText, out] = process.argv.slice(2);
 const STEP = Number(stepText), DURATION = 3.8, FRAME = 0.1; // s
@@ -11,10 +10,7 @@ const MUSCLE = 5e5, BODY = { bend: 2e5, twist: 1.3e5 }; // dyn cm^2, of data/liv
 const CAPACITY = 2.7e5, LENGTH = 42.4, SHIFT = 2.5e-4 * LENGTH; // dyn cm, cm
 const CONTACT = 0.005; // s, the time constant of contacts and limits
 
-const mujoco = await (await import(pathToFileURL(resolve(library)))).default();
-mujoco.FS.mkdir("/mjcf");
-for (const file of readdirSync(mjcf)) mujoco.FS.writeFile(`/mjcf/${file}`, readFileSync(`${mjcf}/${file}`));
-const model = mujoco.MjModel.from_xml_path("/mjcf/hagfish.xml"), data = new mujoco.MjData(model);
+const { mujoco, model, data } = await opened(library, mjcf);
 const start = JSON.parse(/^q = (\[.*\])$/m.exec(readFileSync(tied, "utf8"))[1]);
 const names = [...readdirSync(mjcf).sort().flatMap((file) => [...readFileSync(`${mjcf}/${file}`, "utf8").matchAll(/joint name="j(\d+)_(\w+)"/g)])]
   .map(([, body, kind]) => ({ body: Number(body), kind })).sort((a, b) => a.body - b.body);

@@ -4,18 +4,13 @@
 //   build/release/experiments/mechanics states >STATES.json
 //   node experiments/results/live/live_mirror.mjs STATES.json FOLDER/node_modules/@mujoco/mujoco/mujoco.js MJCF
 // Prints CSV: the largest differences of all states, each over its scale as `hagfish compare` has it; fails past 1e-11.
-import { readFileSync, readdirSync } from "node:fs";
-import { resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { readFileSync } from "node:fs";
+import { opened } from "../mujoco.mjs";
 
 const BOUND = 1e-11;
 const [logged, library, mjcf] = process.argv.slice(2);
 const { length, states } = JSON.parse(readFileSync(logged));
-const mujoco = await (await import(pathToFileURL(resolve(library)))).default();
-const folder = "/mjcf";
-mujoco.FS.mkdir(folder);
-for (const file of readdirSync(mjcf)) mujoco.FS.writeFile(`${folder}/${file}`, readFileSync(`${mjcf}/${file}`));
-const model = mujoco.MjModel.from_xml_path(`${folder}/hagfish.xml`), data = new mujoco.MjData(model);
+const { mujoco, model, data } = await opened(library, mjcf);
 const nv = model.nv, full = new mujoco.DoubleBuffer(nv * nv);
 const worst = { position: 0, M: 0, bias: 0 };
 const note = (name, off) => { worst[name] = Math.max(worst[name], off); };

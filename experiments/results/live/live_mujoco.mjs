@@ -3,10 +3,9 @@
 //   hagfish mjcf table1 --out MJCF
 //   node experiments/results/live/live_mujoco.mjs build/web/hagfish.wasm FOLDER/node_modules/@mujoco/mujoco/mujoco.js MJCF
 // Prints CSV: for each way to step, the time it takes and how far places end from those at the tightest tolerance.
-import { readFileSync, readdirSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { opened } from "../mujoco.mjs";
 
 const { Simulator } = createRequire(import.meta.url)("../../live/simulator.js");
 const [wasm, library, mjcf] = process.argv.slice(2);
@@ -43,11 +42,7 @@ row("simulator, integrator, solver, tolerance", "step without contact, µs", "kn
 row("this one, Euler, active set", median(own.free).toFixed(1), median(own.knotted).toFixed(1), "");
 
 // MuJoCo: from the same places at rest, so that each setting takes the same steps.
-const mujoco = await (await import(pathToFileURL(resolve(library)))).default();
-const folder = "/mjcf";
-mujoco.FS.mkdir(folder);
-for (const file of readdirSync(mjcf)) mujoco.FS.writeFile(`${folder}/${file}`, readFileSync(`${mjcf}/${file}`));
-const model = mujoco.MjModel.from_xml_path(`${folder}/hagfish.xml`), data = new mujoco.MjData(model);
+const { mujoco, model, data } = await opened(library, mjcf);
 model.opt.timestep = STEP;
 const begin = (state) => { mujoco.mj_resetData(model, data); data.qpos.set(state.qpos); };
 const advance = () => { for (let k = 0; k < STEPS; ++k) mujoco.mj_step(model, data); };
