@@ -1,8 +1,9 @@
-"""What each departure from the paper changes: tables of study.sh.
+"""What each departure from the paper changes: the scenes of changes.toml with a grid of them, and tables of what the study leaves.
 
-Usage: departures.py FOLDER. FOLDER is what the study leaves. The tables come in its folder tables.
+Usage: departures.py scenes|tables FOLDER
 """
 
+import json
 import math
 import tomllib
 from pathlib import Path
@@ -12,6 +13,8 @@ from accuracy import cpu_of
 from script import run_script
 from sweep_columns import read_sweep
 
+HERE = Path(__file__).parent
+DATA = HERE.parents[2] / "data"
 PRINTED = "table1_as_printed"
 FIGURES = {  # heading: column of a sweep, its form, what it is multiplied by
     "knot off the head at, s": ("free_from_s", ".1f", 1), "head end of the knot, cm": ("slide_distance_cm", ".1f", 1),
@@ -54,7 +57,29 @@ def read_runs(folder: Path) -> list[dict[str, str]]:
     return runs
 
 
-def main(folder: Path) -> None:
+def toml(value: object) -> str:
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {toml(one)}" for key, one in value.items()) + " }"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def scenes(folder: Path) -> None:
+    """A file for each change of each scene and start, and grid.toml of them all."""
+    (folder / "scenes").mkdir(exist_ok=True)
+    known, names = tomllib.loads((HERE / "changes.toml").read_text(encoding="utf-8")), []
+    for change in known["change"]:
+        for start in range(1, 1 + change.get("starts", 1)):
+            for base in change.get("of", known["both"]):
+                scene = {"base": base, "title": change["title"]} | change.get("set", {}) | ({"start.seed": start} if "starts" in change else {})
+                if "script" in change:
+                    scene["script"] = tomllib.loads((DATA / f"{change['script']}.toml").read_text(encoding="utf-8"))["script"]
+                names.append(f"scenes/{101 + len(names)}.toml")
+                text = "".join(f"{key} = {toml(value)}\n" for key, value in scene.items())
+                (folder / names[-1]).write_text(text, encoding="utf-8")
+    (folder / "grid.toml").write_text(f"[[axis]]\nscene = {toml(names)}\n", encoding="utf-8")
+
+
+def tables_of(folder: Path) -> None:
     runs = read_runs(folder)
     for name, scene in (("departures", "table1"), ("departures_as_printed", PRINTED)):
         own = [run for run in runs if (run["base"] == PRINTED) == (scene == PRINTED)]
@@ -65,5 +90,9 @@ def main(folder: Path) -> None:
         tables.write_table(folder, name, [f"{scene} with", "the knot", *FIGURES], rows)
 
 
+def main(what: str, folder: Path) -> None:
+    {"scenes": scenes, "tables": tables_of}[what](folder)
+
+
 if __name__ == "__main__":
-    run_script(__doc__, ["FOLDER"], main)
+    run_script(__doc__, ["WHAT", "FOLDER"], main)

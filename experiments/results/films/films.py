@@ -11,6 +11,7 @@ import shutil
 import subprocess
 from pathlib import Path
 from time import monotonic
+from typing import Any
 
 import h5py
 import numpy as np
@@ -22,10 +23,9 @@ TUTORIAL = Path(__file__).resolve().parents[2] / "docs/tutorials/film_to_torques
 LENGTH, BODIES = 42.4, 100  # cm, of the animal of the scenes
 NOISE = 0.1  # cm, on each coordinate of each point
 WITHIN, SURELY = 1.645, 2.576  # standard errors, of bands of 90 and 99 %
-RUNS = [("living_overhand", False), ("living_overhand", True), ("living_overhand_free", False),
-        ("living_figure_eight", False), ("living_figure_eight_free", False),
-        ("living_double_overhand", False), ("living_double_overhand", True), ("living_double_overhand_free", False),
-        ("living_three_twist", False), ("living_three_twist", True)]
+RUNS = [("living_overhand", False), ("living_overhand", True), ("living_overhand_free", False), ("living_figure_eight", False),
+        ("living_figure_eight_free", False), ("living_double_overhand", False), ("living_double_overhand", True),
+        ("living_double_overhand_free", False), ("living_three_twist", False), ("living_three_twist", True)]
 
 
 def hagfish(folder: Path, *arguments: object) -> tuple[int, str]:
@@ -61,13 +61,15 @@ JOINTS = np.arange(1, BODIES, 2)
 SPAN = (np.where(JOINTS + 2 >= BODIES, BODIES, JOINTS + 1) - np.where(JOINTS <= 2, 0, JOINTS - 1)) / BODIES
 
 
+def of_angle(angle: float | np.ndarray) -> tuple[Any, Any]:
+    return np.cos(angle), np.sin(angle)
+
+
 def turns(angle: np.ndarray, joint: int) -> np.ndarray:
     """Of a joint's angles y + i z, by its place in JOINTS."""
-    (cy, sy), (cz, sz), none = (np.cos(angle.real), np.sin(angle.real)), (np.cos(angle.imag),
-                                                                          np.sin(angle.imag)), 0 * angle.real
-    rows = [cz * cy, -sz, cz * sy, sz * cy, cz, sz * sy, -sy, none, cy] if joint % 2 == 0 else [cy * cz, -cy * sz, sy,
-                                                                                                sz, cz, none, -sy * cz,
-                                                                                                sy * sz, cy]
+    cy, sy, cz, sz, none = *of_angle(angle.real), *of_angle(angle.imag), 0 * angle.real
+    rows = ([cz * cy, -sz, cz * sy, sz * cy, cz, sz * sy, -sy, none, cy] if joint % 2 == 0
+            else [cy * cz, -cy * sz, sy, sz, cz, none, -sy * cz, sy * sz, cy])
     return np.stack(rows, axis=-1).reshape(*angle.shape, 3, 3)
 
 
@@ -94,7 +96,7 @@ def bodies(angle: np.ndarray) -> np.ndarray:
 
 def joints_along(way: np.ndarray, roll: np.ndarray) -> np.ndarray:
     """Angles of the joints of a chain that takes these ways, its head rolled."""
-    c, s, one, none = np.cos(roll), np.sin(roll), 1 + 0 * roll, 0 * roll
+    c, s, one, none = *of_angle(roll), 1 + 0 * roll, 0 * roll
     turn = np.stack([one, none, none, none, c, -s, none, s, c], axis=-1).reshape(-1, 3, 3)
     angles = []
     for joint, there in enumerate(way[:, 1:].swapaxes(0, 1)):
@@ -151,18 +153,15 @@ def rms(x: np.ndarray) -> float:
 def in_band(fit: Program, true: np.ndarray) -> float:
     """Share of the bends whose true value lies within their band."""
     off, flat = fit.bend - true, np.max(np.abs(fit.bend.real)) == 0
-    inside = [np.abs(off.imag) <= WITHIN * fit.error.imag] + ([] if flat
-                                                              else [np.abs(off.real) <= WITHIN * fit.error.real])
+    inside = [np.abs(off.imag) <= WITHIN * fit.error.imag, *([] if flat else [np.abs(off.real) <= WITHIN * fit.error.real])]
     return float(np.mean(inside))
 
 
 # Closed forms -------------------------------------------------------------------------------------------------------
 
 FORMS = {  # bend (rad per length) at time t and place s (share of the length), torsion (the same): the curve's own normal and binormal
-    "straight": (lambda t, s: 0 * s, 0.0), "arc of 4 rad": (lambda t, s: 4 + 0 * s, 0.0),
-    "arc of 8 rad": (lambda t, s: 8 + 0 * s, 0.0),
-    "growing arc": (lambda t, s: 2 * t + 0 * s, 0.0), "helix": (lambda t, s: 6 + 0 * s, 4.0),
-    "S": (lambda t, s: 3 * np.sin(2 * np.pi * s), 0.0),
+    "straight": (lambda t, s: 0 * s, 0.0), "arc of 4 rad": (lambda t, s: 4 + 0 * s, 0.0), "arc of 8 rad": (lambda t, s: 8 + 0 * s, 0.0),
+    "growing arc": (lambda t, s: 2 * t + 0 * s, 0.0), "helix": (lambda t, s: 6 + 0 * s, 4.0), "S": (lambda t, s: 3 * np.sin(2 * np.pi * s), 0.0),
     "travelling wave": (lambda t, s: 3 * np.sin(2 * np.pi * (s - t / 2)), 0.0)}
 
 
@@ -189,6 +188,10 @@ def true_bends(bend, torsion: float, t: float, station: np.ndarray, roll: float)
     return np.interp(station, s, out.real) + 1j * np.interp(station, s, out.imag)
 
 
+def cells(values: np.ndarray, form: str) -> str:
+    return ",".join("" if np.isnan(v) else f"{v:{form}}" for v in values)
+
+
 def write_film(path: Path, time, s, points, header="time_s,s_cm,x_cm,y_cm,z_cm", kept=None) -> None:
     with path.open("w") as file:
         file.write(header + "\n")
@@ -196,8 +199,7 @@ def write_film(path: Path, time, s, points, header="time_s,s_cm,x_cm,y_cm,z_cm",
             for i, place in enumerate(s):
                 if kept is not None and not kept[f, i]:
                     continue
-                file.write(f"{t:.6g},{place:.6g}," + ",".join("" if np.isnan(v) else f"{v:.6g}"
-                                                              for v in points[f, i]) + "\n")
+                file.write(f"{t:.6g},{place:.6g},{cells(points[f, i], '.6g')}\n")
 
 
 def forms(folder: Path) -> list[dict]:
@@ -209,11 +211,9 @@ def forms(folder: Path) -> list[dict]:
         for noise in (0, NOISE):
             write_film(folder / "form.csv", time, places * LENGTH,
                        true + noise * np.random.default_rng(1).standard_normal(true.shape))
-            code, said = hagfish(folder, "midlines", "form.csv", "--out", "form_p.csv", "--stations", 25, "--force",
-                                 "--scene", "table1")
+            code, said = hagfish(folder, "midlines", "form.csv", "--out", "form_p.csv", "--stations", 25, "--force", "--scene", "table1")
             fit = Program(folder / "form_p.csv")
-            true_by = lambda roll: np.array([true_bends(bend, torsion, t, fit.station, r) for t,
-                                             r in zip(fit.time, roll)])
+            true_by = lambda roll: np.array([true_bends(bend, torsion, t, fit.station, r) for t, r in zip(fit.time, roll)])
             turned = rolled_to(fit, true_by, False) if torsion else true_by(np.zeros(len(fit.time)))
             off = fit.bend - turned
             rows.append({"form": name, "noise (cm)": noise, "code": code, "verdict": said.split("\n")[1].split(":")[0],
@@ -242,20 +242,15 @@ def filmed(log: Path, until: float, seed: int, fps=30, points=50, pixels=25.0):
     begin = random.uniform(0.2, 0.8) * until
     kept = (time < begin) | (time > begin + 1)
     exchanged = random.choice(np.flatnonzero(kept)[5:-5], 2, replace=False)
-    a, b = random.uniform(-1, 1, 2)
-    turn = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]]) @ np.array([[1, 0, 0],
-                                                                                                    [0, np.cos(b),
-                                                                                                     -np.sin(b)],
-                                                                                                     [0, np.sin(b),
-                                                                                                      np.cos(b)]])
+    (ca, sa), (cb, sb) = map(of_angle, random.uniform(-1, 1, 2))
+    turn = np.array([[ca, -sa, 0], [sa, ca, 0], [0, 0, 1]]) @ np.array([[1, 0, 0], [0, cb, -sb], [0, sb, cb]])
     place = (place @ turn.T + [20, 30, 10]) * pixels
     lines = ["frame,s_cm,x_px,y_px,z_px"]
     for f in np.flatnonzero(kept):
         turned = f in exchanged
         for i in range(points):
             where = LENGTH - s[-1 - i] if turned else s[i]
-            lines.append(f"{f},{where:.6g}," + ",".join("" if np.isnan(v) else f"{v:.2f}"
-                                                        for v in place[f, points - 1 - i if turned else i]))
+            lines.append(f"{f},{where:.6g},{cells(place[f, points - 1 - i if turned else i], '.2f')}")
     return "\n".join(lines) + "\n", [f"{f / fps:.4g}" for f in sorted(exchanged)]
 
 
@@ -282,17 +277,14 @@ def runs(folder: Path) -> list[dict]:
         text, exchanged = filmed(folder / "run.h5", until, number)
         (folder / "film.csv").write_text(text)
         begin = cpu()
-        code, said = hagfish(folder, "midlines", "film.csv", "--scene", scene, "--stations", 25, "--out", "p.csv",
-                             "--force", *read_as, *free)
+        code, said = hagfish(folder, "midlines", "film.csv", "--scene", scene, "--stations", 25, "--out", "p.csv", "--force", *read_as, *free)
         took = cpu() - begin
-        row = {"run": name, "code": code, "verdict": next((line.split(":")[0] for line in said.splitlines()
-                                                           if line.split(":")[0] in ("fitted", "doubtful", "failed")),
-                                                           "refused"),
+        verdicts = [word for line in said.splitlines() if (word := line.split(":")[0]) in ("fitted", "doubtful", "failed")]
+        row = {"run": name, "code": code, "verdict": verdicts[0] if verdicts else "refused",
                "exchanged frames named": sum(t in said for t in exchanged)}
         if code == 0:
             fit = Program(folder / "p.csv")
-            true = np.stack([np.stack([np.interp(fit.time, time, centres[:, k, d]) for d in range(3)], axis=1)
-                             for k in range(BODIES)], axis=1)
+            true = np.apply_along_axis(lambda values: np.interp(fit.time, time, values), 0, centres)
             off = np.array([moved_off(own, x) for own, x in zip(bodies(joints_of(fit.bend, fit.station)), true)])
             way = ways_between(true, bool(free))
             same = rolled_to(fit, lambda roll: at_stations(joints_along(way, roll), fit.station), bool(free))
@@ -315,17 +307,19 @@ def runs(folder: Path) -> list[dict]:
 
 # Damaged films ------------------------------------------------------------------------------------------------------
 
+FAULTS = ["outliers", "lost", "tail", "gap", "zeros", "exchanged", "repeated", "jump", "scale", "units", "cut", "y down", "noise", "order",
+          "times"]
+SAID = ("look at", "left out", "taken as missing", "turned round", "scaled to", "filled in")
+
+
 def damaged(folder: Path, count: int = 300) -> list[dict]:
     """Films of an arc that grows, with a millimetre of noise and one or two random faults: how the program takes them, and how far it is off."""
     rows, time, places = [], np.arange(46) / 15, np.linspace(0, 1, 21)
     true = np.array([curve(*FORMS["growing arc"], t, places, 300) for t in time])[..., :2]
     for case in range(count):
         random = np.random.default_rng(case)
-        points, kept, s = true + NOISE * random.standard_normal(true.shape), np.ones(true.shape[:2],
-                                                                                     bool), places * LENGTH
-        header, arguments, faults = "time_s,s_cm,x_cm,y_cm", [], list(random.choice(
-            ["outliers", "lost", "tail", "gap", "zeros", "exchanged", "repeated", "jump", "scale", "units", "cut",
-             "y down", "noise", "order", "times"], random.integers(1, 3), replace=False))
+        points, kept, s = true + NOISE * random.standard_normal(true.shape), np.ones(true.shape[:2], bool), places * LENGTH
+        header, arguments, faults = "time_s,s_cm,x_cm,y_cm", [], random.choice(FAULTS, random.integers(1, 3), replace=False)
         begin, some = random.integers(5, 30), random.random(true.shape[:2])
         for fault in faults:
             if fault == "outliers": points[some < random.uniform(0.005, 0.05)] += random.uniform(-15, 15, 2)
@@ -348,17 +342,14 @@ def damaged(folder: Path, count: int = 300) -> list[dict]:
             (folder / "damaged.csv").write_text("\n".join([heading, *random.permutation(lines)]) + "\n")
         if "times" in faults: arguments += ["--times", random.integers(2, 60)]
         before = cpu()
-        code, said = hagfish(folder, "midlines", "damaged.csv", "--scene", "table1", "--out", "d.csv", "--force",
-                             *arguments)
+        code, said = hagfish(folder, "midlines", "damaged.csv", "--scene", "table1", "--out", "d.csv", "--force", *arguments)
         row = {"case": case, "faults": " + ".join(faults), "code": code, "CPU (s)": cpu() - before}
-        told = any(word in said for word in ("look at", "left out", "taken as missing", "turned round", "scaled to",
-                                             "filled in"))
+        told = any(word in said for word in SAID)
         if code == 0:
             fit = Program(folder / "d.csv")
             sign = -1 if "y down" in faults else 1  # told by nothing in a plane but said not to be: the animal in its mirror
             z = (fit.bend.imag - sign * 2 * (fit.time[:, None] + time[0])) / fit.error.imag
-            row |= {"bends off, in standard errors, rms": rms(z),
-                    "within bands of 90 %": float(np.mean(np.abs(z) < WITHIN)),
+            row |= {"bends off, in standard errors, rms": rms(z), "within bands of 90 %": float(np.mean(np.abs(z) < WITHIN)),
                     "within bands of 99 %": float(np.mean(np.abs(z) < SURELY))}
             right = row["within bands of 99 %"] > 0.75
         row["told"] = "yes" if told else "no"
@@ -377,12 +368,10 @@ def tutorial(folder: Path) -> list[dict]:
     place.mkdir(parents=True)
     environment = os.environ | {"PATH": f"{HAGFISH.parent}:/usr/bin:/bin", "OPENBLAS_NUM_THREADS": "1"}
     for chapter in TUTORIAL.read_text(encoding="utf-8").split("\n## ")[2:]:
-        title, commands = chapter.split("\n", 1)[0].split(". ")[-1], re.findall(r"^```bash\n(.*?)^```$", chapter,
-                                                                                re.MULTILINE | re.DOTALL)
+        title, commands = chapter.split("\n", 1)[0].split(". ")[-1], re.findall(r"(?ms)^```bash\n(.*?)^```$", chapter)
         if commands:
             before, begin = cpu(), monotonic()
-            subprocess.run(["bash", "-euc", "\n".join(commands)], cwd=place, env=environment, stdout=subprocess.DEVNULL,
-                           check=True)
+            subprocess.run(["bash", "-euc", "\n".join(commands)], cwd=place, env=environment, stdout=subprocess.DEVNULL, check=True)
             rows.append({"chapter": title, "CPU (s)": cpu() - before, "by the clock (s)": monotonic() - begin})
     return rows
 
@@ -415,8 +404,7 @@ def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: li
     bends, worst = "bends off, rms (rad/L)", (lambda rows, name: f"{max(number(rows, name)):.2g}")
     held, took = [100 * share for share in number(runs, "within bands of 90 %")], number(runs, "CPU of midlines (s)")
     times = number(films, "CPU (s)")
-    few = [row for row in films if row["outcome"] == "right" and float(row["within bands of 90 %"]) <= 0.75
-           and row["told"] == "no"]
+    few = [row for row in films if row["outcome"] == "right" and row["told"] == "no" and float(row["within bands of 90 %"]) <= 0.75]
     return [[name, str(value)] for name, value in [
         ("a band of 90 %, standard errors to each side", WITHIN),
         ("length of the body, cm", LENGTH),
@@ -441,8 +429,7 @@ def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: li
 
 def write_summaries(folder: Path) -> None:
     """Of the tables of all parts."""
-    forms, runs, films, chapters, _ = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", [])
-                                       for part in PARTS)
+    forms, runs, films, chapters, _ = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", []) for part in PARTS)
     tables.write_table(folder, "films_outcomes", ["outcome", "films"], outcomes(films))
     tables.write_table(folder, "films_figures", ["figure", "value"], figures(forms, runs, films, chapters))
 

@@ -1,8 +1,10 @@
 """What each choice of the Table 1 scene costs and buys: the run with one choice changed, against the scene as it is.
 
-Usage: choices.py RUNS OUT_FOLDER. RUNS is what study.sh leaves. Needs the program as built (HAGFISH_PROGRAM).
+Usage: choices.py list                     of each run its name and its settings
+       choices.py table RUNS OUT_FOLDER    with RUNS as study.sh leaves it. Needs the program as built (HAGFISH_PROGRAM).
 """
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,19 +19,26 @@ from slides import failure_of
 from tables import write_table
 
 AS_IS = "as_is"
-# Run, the choice as it is, what is tried instead.
+# Run, the choice as it is, what is tried instead, and by which settings.
 CHOICES = {
-    "bodies_25": ("100 bodies", "25"), "bodies_50": ("100 bodies", "50"), "bodies_200": ("100 bodies", "200"),
-    "violated": ("speculative rows", "violated rows only"),
-    "margin_0.06": ("rows from a gap of 0.1 cm", "0.06 cm"), "margin_0.3": ("rows from a gap of 0.1 cm", "0.3 cm"),
-    "least_arc_2.12": ("contacts 2.97 cm of body apart", "2.12 cm"),
-    "least_arc_4.24": ("contacts 2.97 cm of body apart", "4.24 cm"),
-    "no_stiffness": ("joint stiffness", "none"), "no_drag": ("water drag", "none"),
-    "baumgarte_0.2": ("half a violation pushed out", "a fifth"), "baumgarte_1": ("half a violation pushed out", "all"),
-    "no_corrections": ("steps corrected along their path", "not corrected"),
-    "cap_1000": ("thigmotaxis up to 5000 dyn", "1000 dyn"), "no_cap": ("thigmotaxis up to 5000 dyn", "no cap"),
-    "votes_5": ("15 votes on the knot", "5"), "votes_45": ("15 votes on the knot", "45"),
-    "no_wall": ("head plate", "none"),
+    "bodies_25": ("100 bodies", "25", "model.bodies=25"),
+    "bodies_50": ("100 bodies", "50", "model.bodies=50"),
+    "bodies_200": ("100 bodies", "200", "model.bodies=200"),
+    "violated": ("speculative rows", "violated rows only", "constraints.activation=violated"),
+    "margin_0.06": ("rows from a gap of 0.1 cm", "0.06 cm", "contact.margin=0.06"),
+    "margin_0.3": ("rows from a gap of 0.1 cm", "0.3 cm", "contact.margin=0.3"),
+    "least_arc_2.12": ("contacts 2.97 cm of body apart", "2.12 cm", "contact.least_arc=2.12"),
+    "least_arc_4.24": ("contacts 2.97 cm of body apart", "4.24 cm", "contact.least_arc=4.24"),
+    "no_stiffness": ("joint stiffness", "none", "model.bending_stiffness=0 model.twist_stiffness=0"),
+    "no_drag": ("water drag", "none", "drag.normal=0 drag.tangential=0"),
+    "baumgarte_0.2": ("half a violation pushed out", "a fifth", "constraints.baumgarte=0.2"),
+    "baumgarte_1": ("half a violation pushed out", "all", "constraints.baumgarte=1"),
+    "no_corrections": ("steps corrected along their path", "not corrected", "constraints.corrections=0"),
+    "cap_1000": ("thigmotaxis up to 5000 dyn", "1000 dyn", "controller.cap=1000"),
+    "no_cap": ("thigmotaxis up to 5000 dyn", "no cap", "controller.cap=1e9"),
+    "votes_5": ("15 votes on the knot", "5", "knot.votes=5"),
+    "votes_45": ("15 votes on the knot", "45", "knot.votes=45"),
+    "no_wall": ("head plate", "none", "wall.present=false"),
 }
 LEAST_SAVING = 0.1  # of CPU time, to change what works
 LEAST_FACTOR = 2  # of penetration, to count as deeper
@@ -100,7 +109,7 @@ def rows(folder: Path) -> list[list[object]]:
         raise LogError(f"{folder}: without run choice_{sorted(missing)[0]}")
     as_is = runs[AS_IS]
     found: list[list[object]] = [["as it is", "", "1", "", "", f"{as_is.penetration:.2g}", as_is.failure or "slides"]]
-    for name, (choice, instead) in CHOICES.items():
+    for name, (choice, instead, _) in CHOICES.items():
         run = runs[name]
         slid = not run.failure and np.isfinite(run.force)
         found.append([choice, instead, f"{run.cpu / as_is.cpu:.2f}", f"{run.slide - as_is.slide:+.2f}" if slid else "",
@@ -113,4 +122,7 @@ def main(folder: Path, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["RUNS", "OUT_FOLDER"], main)
+    if sys.argv[1:] == ["list"]:
+        print(AS_IS, *(f"{name} {settings}" for name, (_, _, settings) in CHOICES.items()), sep="\n")
+    else:
+        run_script(__doc__, ["table", "RUNS", "OUT_FOLDER"], lambda _, runs, out: main(runs, out))

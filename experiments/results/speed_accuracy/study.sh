@@ -31,30 +31,10 @@ ties() {
 # One choice of the scene changed at a time; `as_is` is none.
 choices() {
   local name sets
-  while read -r name sets; do
+  draw choices.py list | while read -r name sets; do
     # shellcheck disable=SC2086 # words
     job timed "choice_$name" 7 run table1 --qp active-set --set time.frame_interval=0.05 ${sets:+--set ${sets// / --set }}
-  done <<'LIST'
-as_is
-bodies_25 model.bodies=25
-bodies_50 model.bodies=50
-bodies_200 model.bodies=200
-violated constraints.activation=violated
-margin_0.06 contact.margin=0.06
-margin_0.3 contact.margin=0.3
-least_arc_4.24 contact.least_arc=4.24
-least_arc_2.12 contact.least_arc=2.12
-no_stiffness model.bending_stiffness=0 model.twist_stiffness=0
-no_drag drag.normal=0 drag.tangential=0
-baumgarte_0.2 constraints.baumgarte=0.2
-baumgarte_1 constraints.baumgarte=1
-no_corrections constraints.corrections=0
-cap_1000 controller.cap=1000
-no_cap controller.cap=1e9
-votes_5 knot.votes=5
-votes_45 knot.votes=45
-no_wall wall.present=false
-LIST
+  done
 }
 
 ties | work "Knots that are tied"
@@ -64,4 +44,4 @@ for motion in coil hanging whip; do job integrate $motion; done | work "Smooth m
 echo "Drawing"
 draw tying.py "$runs" "$out"
 draw integration.py "$runs" "$out"
-draw choices.py "$runs" "$out"
+draw choices.py table "$runs" "$out"
