@@ -14,11 +14,12 @@ import claim_map
 import claim_row
 import claims
 import departures
+import design
 import films
 import knot_in_numbers
 import leverage
 import living
-import pulls
+import reflex
 import sliding_map
 import stability
 import sweep_columns
@@ -43,11 +44,33 @@ def test_each_table_of_a_page_is_written_by_a_script_beside_it():
         assert named or f'f"{stem}_{{' in scripts and re.search(rf'"{end}"|def {end}\b', scripts), table
 
 
-def test_a_knot_in_numbers_says_what_the_other_pages_say(tmp_path):
-    knot_in_numbers.main(tmp_path)
-    for made in (tmp_path / "tables").glob("*.csv"):
-        now, stated = read_table(made), read_table(RESULTS / "knot_in_numbers" / made.name)
-        assert (now.head, now.rows) == (stated.head, stated.rows), "make it again: bash experiments/reproduce.sh knot_in_numbers"
+def from_data(page, *names):
+    """Gives a script the tables of a page that others are made of."""
+    def copied(folder):
+        (folder / "tables").mkdir()
+        for name in names:
+            shutil.copy(RESULTS / page / f"{name}.csv", folder / "tables")
+        return folder
+    return copied
+
+
+MADE_AGAIN = {  # tables of pages by what makes them of other tables that are here, and how many there are
+    "design": (lambda folder: design.main(folder, RESULTS / "design/design.csv"), 8),
+    "reflex": (lambda folder: reflex.main(folder, RESULTS / "reflex/reflex.csv"), 16),
+    "knot_in_numbers": (knot_in_numbers.main, 2),
+    "leverage": (lambda folder: leverage.page(from_data("leverage", "leverage_runs", "leverage_time")(folder)), 4),
+    "films": (lambda folder: films.write_summaries(from_data("films", *(f"films_{part.__name__}" for part in films.PARTS))(folder)), 7)}
+
+
+@pytest.mark.parametrize("page", MADE_AGAIN)
+def test_tables_say_what_those_say_that_they_are_made_of(tmp_path, page):
+    make, count = MADE_AGAIN[page]
+    make(tmp_path)
+    tables = list((tmp_path / "tables").glob("*.csv"))
+    assert len(tables) == count
+    for made in tables:
+        now, stated = read_table(made), read_table(RESULTS / page / made.name)
+        assert (now.head, now.rows) == (stated.head, stated.rows), f"{made.name}: make it again: bash experiments/reproduce.sh {page}"
 
 
 def test_sliding_by_speed_and_stiffness(tmp_path):
@@ -81,36 +104,34 @@ def test_stability_by_scene_and_start(tmp_path):
     assert read(tmp_path, "stability_starts")[1] == ["1", "2 of 2", ""]
 
 
-class Pulled:
-    def __init__(self, mean):
-        self.mean = mean
+def pull_of(kind, value="0", seed=0, pull="", deep="no", **more):
+    return {name: "1" for name in leverage.HEAD} | {"kind": kind, "body": "living", "knot": "3_1", "value": value, "seed": str(seed), "pull_N": str(pull),
+                                                     "outcome": "pulled" if pull else "knot lost", "too_deep": deep} | more
 
 
 def test_what_changes_a_pull(tmp_path):
-    run = lambda kind, value, seed, mean, deep=False: leverage.Run(kind, "living", "3_1", value, seed, "pulled" if mean else "knot lost", Pulled(mean) if mean else None, 0, deep)
-    runs = [run("start", "0", 1, 0.2), run("start", "0", 2, 0.4), run("start", "0", 3, 90, True), run("speed", "4", 1, 0.6), run("speed", "0.5", 1, None),
-            run("speed", "8", 1, 50, True)]
+    runs = [pull_of("start", "0", 1, 0.2), pull_of("start", "0", 2, 0.4), pull_of("start", "0", 3, 90, "yes"), pull_of("speed", "4", 1, 0.6),
+            pull_of("speed", "0.5", 1), pull_of("speed", "8", 1, 50, "yes")]
     leverage.changes_table(runs, tmp_path)
     rows = {row[0]: row[3:] for row in read(tmp_path, "leverage_changes")[1:]}
     assert rows == {"commanded speed, cm/s: 0.5": ["0 of 1", ""], "commanded speed, cm/s: 4": ["1 of 1", "2.00"], "commanded speed, cm/s: 8": ["0 of 1", ""]}
 
 
 def test_a_pull_is_told_over_time_and_by_what_may_move_it(tmp_path):
-    time = np.arange(0.0, 6.01, 0.5)
-    pull = lambda force: pulls.Pull(time, force * np.ones(13), *[np.full(13, value) for value in (9.0, 2.0, 9.0, 4.0)], cap=0.05)
-    rising = pulls.Pull(time, np.floor(time), *[np.ones(13)] * 4, cap=0.05)
-    run = lambda kind, value, seed, of: leverage.Run(kind, "living", "3_1", value, seed, "pulled", of, 0, False)
-    runs = [run("start", "0", 1, pull(2)), run("start", "0", 2, pull(4)), run("plain", "0", 0, rising), run("mirror", "0", 0, rising),
-            run("step", "0.002", 1, pull(7)), run("bodies", "150", 1, pull(8))]
-    leverage.knots_table(runs, tmp_path)
-    head, *rows = read(tmp_path, "leverage")
-    row = dict(zip(head, next(row for row in rows if row[:2] == ["living", "3_1"])))
-    mean = f"{rising.mean:.2f}"
-    assert row == {"body": "living", "knot": "3_1", "cap of a row, N": "0.05", "pulled": "2 of 2", "pull in the thirds of its time, N": "0.50, 2.50, 4.50",
-                   "of its seconds, N": "0.00 to 5.00", "means of starts, N": "2.00 to 4.00", "of steps, N": f"{mean} to 7.00",
-                   "of numbers of bodies, N": f"{mean} to 8.00", "over the sum of the rows": "1.5", "over the largest torque, 1/cm": "0.75", "mirror image the same": "yes"}
-    leverage.time_table(runs, tmp_path)
-    assert read(tmp_path, "leverage_time") == [leverage.TIME_HEAD, *[["living", "3_1", f"{k}.5", f"{k}"] for k in range(6)]]
+    runs = [pull_of("start", seed=1, pull=2, cap_N="0.05", rows_N="2", torque_mean_N_cm="4"), pull_of("start", seed=2, pull=4, cap_N="0.05", rows_N="2",
+            torque_mean_N_cm="4"), pull_of("plain", pull=2.5), pull_of("mirror", pull=2.5), pull_of("step", "0.002", 1, 7), pull_of("bodies", "150", 1, 8)]
+    seconds = [{"body": "living", "knot": "3_1", "second": f"{k}.5", "pull_N": f"{k}"} for k in range(6)]
+
+    def row():
+        leverage.knots_table(runs, seconds, tmp_path)
+        head, *rows = read(tmp_path, "leverage")
+        return dict(zip(head, next(row for row in rows if row[:2] == ["living", "3_1"])))
+
+    assert row() == {"body": "living", "knot": "3_1", "cap of a row, N": "0.05", "pulled": "2 of 2", "pull in the thirds of its time, N": "0.50, 2.50, 4.50",
+                     "of its seconds, N": "0.00 to 5.00", "means of starts, N": "2.00 to 4.00", "of steps, N": "2.50 to 7.00",
+                     "of numbers of bodies, N": "2.50 to 8.00", "over the sum of the rows": "1.5", "over the largest torque, 1/cm": "0.75", "mirror image the same": "yes"}
+    runs[3]["plate_N"] = "2"
+    assert row()["mirror image the same"] == "no"
 
 
 def test_a_value_of_an_audit_is_that_of_its_criterion(tmp_path):
@@ -188,14 +209,6 @@ def test_a_motion_is_off_by_what_it_is_moved():
     at = lambda x: tying.Motion(np.full((2, 3, 3), [x, 0, 0]), np.full((2, 9), 1 + x))
     assert at(0.1).errors(at(0.0)) == pytest.approx((0.1, 10))
     assert at(0.1).towards(at(0.2), -1).errors(at(0.0)) == pytest.approx((0, 0), abs=1e-12)
-
-
-def test_films_have_their_summaries(tmp_path):
-    shutil.copytree(RESULTS / "films", tmp_path / "tables")
-    films.write_summaries(tmp_path)
-    for name in ("outcomes", "figures"):
-        stated = read_table(RESULTS / f"films/films_{name}.csv")
-        assert read(tmp_path, f"films_{name}") == [stated.head, *stated.rows]
 
 
 def test_one_animal_in_two_simulators(tmp_path):

@@ -120,9 +120,3 @@ def test_pages_of_slides_have_their_tables(content, sweep, tmp_path):
     reverse.main(tmp_path)  # of a run that never turned
     (row,) = read_table(tmp_path / "tables/reverse.csv").rows
     assert (*row[:3], row[-1]) == ("3_1", "3", "nan", "untied at the tail")
-
-
-def test_what_is_no_sweep(tmp_path):
-    write_csv(tmp_path / "table.csv", ["log", "figure"], [["a.h5", 1]])
-    with pytest.raises(LogError, match="not a table of this version of hagfish sweep"):
-        slides.read_slides(tmp_path)
