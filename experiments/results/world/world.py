@@ -38,7 +38,7 @@ def holes(folder: Path) -> None:
 def waves(folder: Path) -> None:
     """A row a wave, of runs that start at other phases of it."""
     found: dict[tuple[str, ...], list[dict[str, Any]]] = {}
-    for run in taken(folder / "waves"):
+    for run in taken(folder / "wave_runs" / "logs"):
         found.setdefault(tuple(run["wave"]), []).append(run)
     rows = []
     for wave, runs in found.items():
