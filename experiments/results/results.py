@@ -12,7 +12,7 @@ Usage: results.py render                 makes the blocks between markers again,
        results.py page NAME              exit code 2 where there is no such page
 
 page.toml has `[chance]`: of a table, by pattern of its headings, the share by which figures may differ from one machine to
-another, inf where a column is not compared. The first pattern counts. Columns without one are as they were, times of the
+another, inf where a column is not compared; `ROW; HEADING` has patterns of a row's first cell, too. The first pattern counts. Columns without one are as they were, times of the
 computer are not compared. `data` are CSV files that figures are drawn from, besides the tables. Of its study's folder a page takes tables/NAME.csv of all these, and the PNG
 files that it shows. A block of a page begins with one of these lines and ends with `<!-- end -->`:
     <!-- table: FILE.csv -->             the table; `; rows: WORDS; WORDS` picks the rows whose first cell has the words
@@ -197,10 +197,13 @@ def same(old: str, new: str, chance: float) -> bool:
     return all(near(a, b) for a, b in pairs)
 
 
-def chance_of(head: str, shares: dict[str, float]) -> float:
-    """Of a column; `shares` are those of its table, by pattern."""
-    known = (share for pattern, share in shares.items() if re.search(pattern, head))
-    return next(known, math.inf if TIMES.search(head) else EQUAL)
+def chance_of(row: str, head: str, shares: dict[str, float]) -> float:
+    """Of a cell by its row's first cell and its heading; `shares` are those of its table, by pattern."""
+    for pattern, share in shares.items():
+        of_row, _, of_head = pattern.rpartition("; ")
+        if re.search(of_row, row) and re.search(of_head, head):
+            return share
+    return math.inf if TIMES.search(head) else EQUAL
 
 
 def differences(name: str, old: Table, new: Table, shares: dict[str, float]) -> list[str]:
@@ -218,7 +221,7 @@ def differences(name: str, old: Table, new: Table, shares: dict[str, float]) -> 
             found.append(f"{name}: a new row: {row[0]}")
             continue
         found += [f"{name}: {row[0]}, {head}: was {a!r}, is {b!r}"
-                  for head, a, b in zip(new.head, was, row) if not same(a, b, chance_of(head, shares))]
+                  for head, a, b in zip(new.head, was, row) if not same(a, b, chance_of(row[0], head, shares))]
     return found + [f"{name}: no row any more: {first}" for first in (before if keyed else ())]
 
 

@@ -82,8 +82,9 @@ def test_differences_are_named():
 
 def test_each_column_has_its_own_chance():
     table = lambda *cells: results.Table(["", "force, N", "starts", "CPU, s", "quickest"], [["x", *cells]])
-    shares, old = {"force": 0.1, "quick": float("inf")}, table("10", "5 of 8", "1", "a: 3")
+    shares, old = {"^y; force": 0.9, "force": 0.1, "quick": float("inf")}, table("10", "5 of 8", "1", "a: 3")
     assert results.differences("t", old, table("10.9", "5 of 8", "9", "b"), shares) == []
+    assert results.chance_of("y", "force, N", shares) == 0.9
     assert results.differences("t", old, table("11.2", "6 of 8", "9", "b"), shares) == [
         "t: x, force, N: was '10', is '11.2'", "t: x, starts: was '5 of 8', is '6 of 8'"]
 
@@ -92,9 +93,9 @@ def test_each_column_has_its_own_chance():
 def test_chances_are_of_columns_that_there_are(name):
     for table, shares in results.settings_of(name).get("chance", {}).items():
         assert f"{table}.csv" in results.shown_by(name)
-        for pattern in shares:
-            heads = results.read_table(results.RESULTS / name / f"{table}.csv").head
-            assert any(re.search(pattern, head) for head in heads), (table, pattern)
+        read = results.read_table(results.RESULTS / name / f"{table}.csv")
+        for row, _, heading in (pattern.rpartition("; ") for pattern in shares):
+            assert any(re.search(heading, head) for head in read.head) and any(re.search(row, cells[0]) for cells in read.rows), (table, row, heading)
 
 
 def test_only_code_makes_a_page_old():

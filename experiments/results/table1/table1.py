@@ -11,7 +11,7 @@ import audits
 import results
 from hagfish_log import LogError
 from script import run_script
-from tables import read_table, write_table
+from tables import Table, read_table, write_table
 
 HEAD = ["", "required", "measured"]
 # Criterion, how the page calls it, and how it says the bound.
@@ -25,8 +25,6 @@ ROWS = {"knot held": ("the knot is a 3_1 from tightening to release, frames", "a
         "energy ledger": ("energy ledger closes, of the energy that passed", "≤ {}")}
 ROUNDING = 1e-6  # figures below are rounding, of which one digit is shown
 ROUNDING_OF_TOLERANCE = 1e-5  # the same of what is a share of a tolerance of 1e-9
-SHARE = 0.02  # by which a figure may differ on another machine: starts that differ by rounding differ by less at h = 2 ms
-DEEPEST = 0.5  # by which the deepest of all steps may, which is one step's: at h = 2 ms 0.00028 cm with AVX-512, 0.00033 without FMA
 
 
 def rounding_of(words: str) -> float:
@@ -50,30 +48,12 @@ def table(findings: list[audits.Finding]) -> list[list[str]]:
             for name, (words, required) in ROWS.items()]
 
 
-def stated(path: Path) -> list[list[str]]:
-    """Rows of the table that is there."""
-    found = read_table(path)
-    if found.head != HEAD:
-        raise LogError(f"{path}: its columns are not {HEAD}")
-    return found.rows
-
-
-def same(old: list[str], new: list[str]) -> bool:
-    """Whether two rows say the same: words and bounds to the letter, figures to what chance and rounding leave open."""
-    share = DEEPEST if old[0] == ROWS["penetration"][0] else SHARE
-    return old[:-1] == new[:-1] and results.same(old[-1], new[-1], share)
-
-
 def main(check: Path, known: Path, out: Path) -> None:
-    new = table(audits.read_findings(check))
-    write_table(out, "table1", HEAD, new)
-    old = stated(known)
-    differ = [f"has {a} where the run has {b}" for a, b in zip(old, new) if not same(a, b)]
-    if len(old) != len(new):
-        differ.append(f"has {len(old)} rows where the run has {len(new)}")
+    new = Table(HEAD, table(audits.read_findings(check)))
+    write_table(out, "table1", new.head, new.rows)
+    differ = results.differences(known.stem, read_table(known), new, results.settings_of("table1")["chance"]["table1"])
     if differ:
-        print("\n".join(f"{known.name} {words}" for words in differ), f"{out}/tables/table1.csv is the table as it is now.", sep="\n",
-              file=sys.stderr)
+        print(*differ, f"{out}/tables/table1.csv is the table as it is now.", sep="\n", file=sys.stderr)
         sys.exit(1)
 
 
