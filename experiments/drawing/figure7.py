@@ -4,9 +4,6 @@ All panels share one camera and one scale. `hagfish picture` draws the animal.
 Usage: figure7.py LOG.h5 HAGFISH OUT.png, where HAGFISH is the program (writes OUT.pdf beside).
 """
 
-import csv
-import subprocess
-import tempfile
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -17,7 +14,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import plots
-from hagfish_log import HagfishLog, LogError
+from hagfish_log import HagfishLog
+from log_pictures import Picture, take_pictures
 from script import run_script
 
 DPI = 400
@@ -52,36 +50,10 @@ class Camera:
         return np.stack([np.cross(up, toward), up], axis=1)
 
 
-@dataclass
-class Picture:
-    """One frame in the picture plane; all have one scale."""
-
-    pixels: np.ndarray  # rows from the top
-    left: float  # cm, as all that follow
-    right: float
-    bottom: float
-    top: float
-
-
-def take_pictures(log: HagfishLog, hagfish: Path, frames: list[int], view: Camera) -> list[Picture]:
-    """The animal and the head plate at `frames`, drawn by `hagfish picture`."""
-    if not hagfish.is_file():
-        raise LogError(f"{hagfish}: no such program")
-    with tempfile.TemporaryDirectory() as folder:
-        command = [hagfish.absolute(), "picture", log.path, "--out", f"{folder}/stage.png",
-                   f"--pitch={view.pitch}", f"--yaw={view.yaw}"]
-        for frame in frames:
-            command.append(f"--time={float(log['/trajectory/time'][frame])!r}")
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode != 0:
-            raise LogError(done.stderr.strip() or f"{hagfish}: ended with code {done.returncode}")
-        pictures = []
-        for row in csv.DictReader(done.stdout.splitlines(), delimiter="\t"):
-            pixels, size = plt.imread(row["file"]), float(row["cm_per_pixel"])
-            left, bottom = float(row["left_cm"]), float(row["bottom_cm"])
-            height, width = pixels.shape[:2]
-            pictures.append(Picture(pixels, left, left + size * width, bottom, bottom + size * height))
-        return pictures
+def take_stages(log: HagfishLog, hagfish: Path, stages: list[Stage], view: Camera) -> list[Picture]:
+    """The animal and the head plate."""
+    times = log["/trajectory/time"][[stage.frame for stage in stages]]
+    return take_pictures(log.path, times, f"--pitch={view.pitch}", f"--yaw={view.yaw}", hagfish=hagfish)
 
 
 def plan_crossings(centre: np.ndarray) -> int:
@@ -181,7 +153,7 @@ def label_ends(axes: Any, log: HagfishLog, frame: int, view: Camera, picture: Pi
     """Writes "head" and "tail" on axes in cm of the picture plane, `per_cm` inches each: where nothing is drawn and as near as
     can be to that end of the animal, with a line to it."""
     centres = log["/trajectory/position"][frame] @ view.plane()
-    drawn = np.any(picture.pixels[..., :3] < BACKGROUND, axis=-1)
+    drawn = np.any(picture.pixels < BACKGROUND, axis=-1)
     per_pixel = (picture.right - picture.left) / drawn.shape[1]
     half = np.array(WORD) / per_cm / 2
     least, most = np.transpose([axes.get_xlim(), axes.get_ylim()])
@@ -228,7 +200,7 @@ def main(path: Path, hagfish: Path, out: Path) -> None:
     log = HagfishLog(path)
     stages = choose_stages(log)
     view = choose_camera(log, stages)
-    pictures = take_pictures(log, hagfish, [stage.frame for stage in stages], view)
+    pictures = take_stages(log, hagfish, stages, view)
     per_cm, rows = fitted(*(np.array([getattr(p, side) for p in pictures]) for side in ("left", "right")))
     cm, gap, across = 1 / per_cm, GAP / per_cm, plots.WIDTH / per_cm  # an inch, the gap, the page in cm of the picture plane
     left = np.array([p.left for p in pictures]) - gap

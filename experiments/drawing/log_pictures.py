@@ -1,23 +1,42 @@
-"""Pictures of moments of a log, as `hagfish picture` draws them. Needs the program as built (HAGFISH_PROGRAM)."""
+"""Pictures of moments of a log, as `hagfish picture` draws them."""
 
+import csv
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib.image
 import numpy as np
 
+from hagfish_log import LogError
 from script import HAGFISH
 
-SIZE = "420x330"  # pixels
+
+@dataclass
+class Picture:
+    """One moment in the picture plane; all of a log have one scale."""
+
+    pixels: np.ndarray  # rows from the top, RGB, 0 to 1
+    left: float  # cm, as all that follow
+    right: float
+    bottom: float
+    top: float
 
 
-def pictures_of(log: Path, times: Sequence[float], *options: str, size: str = SIZE) -> list[np.ndarray]:
-    """One for each time (s), of one view: height x width x 3, 0 to 1. `options` are more of the command's."""
+def take_pictures(log: Path, times: Iterable[float], *options: str, hagfish: Path = HAGFISH) -> list[Picture]:
+    """One for each time (s), of one view. `options` are more of the command's."""
+    if not hagfish.is_file():
+        raise LogError(f"{hagfish}: no such program")
     with tempfile.TemporaryDirectory() as folder:
-        picture = Path(folder) / "picture.png"
-        at = [word for time in times for word in ("--time", f"{time:g}")]
-        subprocess.run([HAGFISH, "picture", log, "--out", picture, "--size", size, *options, *at], check=True, stdout=subprocess.DEVNULL)
-        drawn = [picture] if len(times) == 1 else [picture.with_stem(f"{picture.stem}_{k + 1}") for k in range(len(times))]
-        return [matplotlib.image.imread(one)[..., :3] for one in drawn]
+        command = [hagfish.absolute(), "picture", log, "--out", f"{folder}/picture.png", *options]
+        done = subprocess.run([*command, *(f"--time={float(time)!r}" for time in times)], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise LogError(done.stderr.strip() or f"{hagfish}: ended with code {done.returncode}")
+        pictures = []
+        for row in csv.DictReader(done.stdout.splitlines(), delimiter="\t"):
+            pixels, size = matplotlib.image.imread(row["file"])[..., :3], float(row["cm_per_pixel"])
+            left, bottom = float(row["left_cm"]), float(row["bottom_cm"])
+            pictures.append(Picture(pixels, left, left + size * pixels.shape[1], bottom, bottom + size * pixels.shape[0]))
+        return pictures

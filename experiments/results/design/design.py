@@ -16,7 +16,7 @@ import plots
 import tables
 from audits import read_findings, unmet
 from hagfish_log import HagfishLog, LogError
-from log_pictures import pictures_of
+from log_pictures import take_pictures
 from script import run_script
 
 LIVING = Path(__file__).resolve().parents[1] / "living/living.csv"
@@ -213,7 +213,7 @@ def draw_gallery(folder: Path, rows: list[Row], out: Path) -> None:
     for panel, row in zip(axes.flat, kept):
         log = folder / row["folder"] / "knot.h5"
         slides = HagfishLog(log)["/trajectory/time"][HagfishLog(log).in_phase("slide")]
-        panel.imshow(pictures_of(log, slides[:1], size=SIZE)[0])
+        panel.imshow(take_pictures(log, slides[:1], "--size", SIZE)[0].pixels)
         panel.set_title(f"{row['knot_wanted']}: {float(row['body_in_knot_cm']):.0f} of {float(row['length_cm']):.0f} cm")
     figure.tight_layout(pad=0.4)
     plots.save(figure, out)

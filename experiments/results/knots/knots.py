@@ -11,7 +11,7 @@ import numpy as np
 import claims
 import plots
 from audits import audit, unmet
-from figure7 import Stage, choose_camera, label_ends, take_pictures
+from figure7 import Stage, choose_camera, label_ends, take_stages
 from hagfish_log import HagfishLog, LogError
 from means import Means, effort_per_cm, read_means
 from script import HAGFISH, run_script
@@ -38,7 +38,7 @@ def draw_pictures(logs: dict[str, HagfishLog], out: Path) -> None:
     for knot, log in logs.items():
         stages = stages_of(log)
         view = choose_camera(log, stages)
-        pictures[knot] = stages, take_pictures(log, HAGFISH, [s.frame for s in stages], view), view
+        pictures[knot] = stages, take_stages(log, HAGFISH, stages, view), view
     wide = max(p.right - p.left for _, row, _ in pictures.values() for p in row) + 2 * GAP
     heights = {knot: max(p.top for p in row) - min(p.bottom for p in row) + 2 * GAP for knot, (_, row, _) in pictures.items()}
     per_cm, above, below = plots.WIDTH / (4 * wide), 0.18, 0.32  # inches of text about a row

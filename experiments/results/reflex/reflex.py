@@ -18,7 +18,7 @@ import reflex_runs
 import skin
 import tables
 from hagfish_log import HagfishLog
-from log_pictures import pictures_of
+from log_pictures import take_pictures
 from reflex_runs import Row, read_table
 from script import run_script
 from sweep_columns import read_cells
@@ -374,7 +374,7 @@ def draw_strip(here: Path, there: Path, out: Path) -> None:
     slides = [log["/trajectory/time"][log.in_phase("slide")] for log in logs]
     times = np.linspace(max(slide[0] for slide in slides), min(slide[-1] for slide in slides), 4)
     # The legend of colours below is too small to be read here.
-    pictures = [[each[:-LEGEND] for each in pictures_of(log.path, times, "--colour", "active", size=SIZE)] for log in logs]
+    pictures = [[each.pixels[:-LEGEND] for each in take_pictures(log.path, times, "--colour", "active", "--size", SIZE)] for log in logs]
     ink = np.min([each.min(axis=2) for row in pictures for each in row], axis=0) < 1
     shown = tuple(slice(*np.flatnonzero(ink.any(axis=axis))[[0, -1]]) for axis in (1, 0))
     figure, grid = plots.plt.subplots(2, 4, figsize=(plots.WIDTH, 3.9), layout="constrained")

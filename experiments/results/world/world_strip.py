@@ -9,9 +9,10 @@ import matplotlib.image
 import numpy as np
 
 from hagfish_log import HagfishLog
-from log_pictures import pictures_of
+from log_pictures import take_pictures
 from script import run_script
 
+SIZE = "420x330"  # pixels
 OUT_FOR = 0.1  # s, after which the last picture shows it
 
 
@@ -32,7 +33,7 @@ def moments_of_slide(log: HagfishLog) -> list[float]:
 
 def main(reflex: Path, paper: Path, burrow: Path, pole: Path, robot: Path, out: Path) -> None:
     strips = ((reflex, moments), (paper, moments), (burrow, moments), (pole, moments_of_slide), (robot, moments_of_slide))
-    rows = [np.hstack(pictures_of(path, moments_of(HagfishLog(path)))) for path, moments_of in strips]
+    rows = [np.hstack([each.pixels for each in take_pictures(path, moments_of(HagfishLog(path)), "--size", SIZE)]) for path, moments_of in strips]
     matplotlib.image.imsave(out, np.vstack(rows))
 
 
