@@ -84,8 +84,7 @@ def shares(knots: np.ndarray, at: np.ndarray) -> np.ndarray:
 class Overlap:
     """What is minimised, of a program of times x stations x 3."""
 
-    def __init__(self, body: Body, times: np.ndarray, stations: np.ndarray, program: np.ndarray,
-                 through: list[list[float]]) -> None:
+    def __init__(self, body: Body, times: np.ndarray, stations: np.ndarray, program: np.ndarray, through: list[list[float]]) -> None:
         self.chain, self.program, self.keep = body, program, KEEP
         self.at = np.arange(FIRST, times[-1] + 0.01, EVERY)
         self.in_time = shares(times, self.at)

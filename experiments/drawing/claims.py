@@ -175,8 +175,7 @@ def smooth_in_space(s: Sliding) -> dict[str, Any]:
         _, force = s.axis(name)
         energy = {"dct": ((force @ dct_matrix(force.shape[1]).T) ** 2).sum(axis=0),
                   "svd": np.linalg.svd(force, compute_uv=False) ** 2}
-        own: dict[str, Any] = {"joints": force.shape[1], "roughness_in_space": roughness(force, 1),
-                               "roughness_in_time": roughness(force, 0)}
+        own: dict[str, Any] = {"joints": force.shape[1], "roughness_in_space": roughness(force, 1), "roughness_in_time": roughness(force, 0)}
         for basis, values in energy.items():
             held = np.cumsum(values) / max(values.sum(), np.finfo(float).tiny)
             own[f"{basis}_held"] = held.tolist()
@@ -188,8 +187,7 @@ def smooth_in_space(s: Sliding) -> dict[str, Any]:
 
 def over_runs(verdicts: Sequence[str]) -> str:
     """The verdict of nearly all runs, "undecided" where there is none; "" without runs."""
-    return next((word for word in dict.fromkeys(verdicts) if verdicts.count(word) >= MOST_RUNS * len(verdicts)),
-                "undecided") if verdicts else ""
+    return next((word for word in dict.fromkeys(verdicts) if verdicts.count(word) >= MOST_RUNS * len(verdicts)), "undecided") if verdicts else ""
 
 
 def verdicts(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> dict[str, str]:

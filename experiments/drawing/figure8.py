@@ -52,8 +52,7 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
 
         flat = figure.add_axes([0.055 + 0.312 * column, 0.135, 0.255, 0.24])
         flat.grid(visible=False)
-        image = flat.pcolormesh(edges(joint.astype(float)), edges(s.time), force, cmap="RdBu_r", vmin=-scale,
-                                vmax=scale, rasterized=True)
+        image = flat.pcolormesh(edges(joint.astype(float)), edges(s.time), force, cmap="RdBu_r", vmin=-scale, vmax=scale, rasterized=True)
         flat.plot(s.head_end / per_joint, s.time, color="black", lw=0.9, label="head end")
         flat.plot(s.tail_end / per_joint, s.time, color="black", lw=0.9, ls="--", label="tail end")
         flat.set_xlabel("joint (head 0)", fontsize=8)
@@ -84,8 +83,7 @@ def draw_zero(axes: Any, s: claims.Sliding) -> None:
     top = max(size.max(), 1e-300)
     shown = np.ma.masked_where(size == 0, size)
     axes.grid(visible=False)
-    image = axes.pcolormesh(edges(arcs), edges(s.time), shown, cmap="cividis", rasterized=True,
-                            norm=LogNorm(vmin=top * 1e-4, vmax=top))
+    image = axes.pcolormesh(edges(arcs), edges(s.time), shown, cmap="cividis", rasterized=True, norm=LogNorm(vmin=top * 1e-4, vmax=top))
     axes.plot(s.head_end, s.time, color=plots.VERMILION, lw=1.2, label="knot, head end")
     axes.plot(s.tail_end, s.time, color=plots.VERMILION, lw=1.2, ls="--", label="knot, tail end")
     axes.set(xlabel="arc length from the head, cm", ylabel="time, s")
@@ -151,8 +149,7 @@ def plain_words(a: dict[str, Any], b: dict[str, Any], c: dict[str, Any]) -> list
             f"{a['nonzero_beyond_reach_of_rows']} of {a['values_beyond_reach_of_rows']} not 0. Largest force, a mean over "
             f"{1000 * c['mean_over_s']:.0f} ms: {a['largest_force_dyn_cm']:.4g} dyn cm; {100 * a['share_of_plane_zero']:.0f} % "
             "of all values are 0. Rule: exactly 0 beyond the rows' reach.")
-    rows = [f"{name.split(',')[0]} ×{m['near_over_far']:.2f} (Spearman {m['spearman_with_head_end']:+.2f})" for name,
-            m in b["measures"].items()]
+    rows = [f"{name.split(',')[0]} ×{m['near_over_far']:.2f} (Spearman {m['spearman_with_head_end']:+.2f})" for name, m in b["measures"].items()]
     growth = ("mean over the third of the way nearest the head, over that of the furthest third: " + "; ".join(rows)
               + f". Rule: the first is at least {claims.LARGER}; at most 1 disagrees.")
     each = c["axes"].items()
@@ -196,8 +193,7 @@ def claims_page(s: claims.Sliding, out: Path) -> None:
             figure.text(0.04, height, line, fontsize=7.5)
         height -= 0.022
     plots.save(figure, out)
-    report = {"verdicts": verdict, "in_words": dict(words), "zero_behind_the_knot": a, "larger_near_the_head": b,
-              "smooth_in_space": c}
+    report = {"verdicts": verdict, "in_words": dict(words), "zero_behind_the_knot": a, "larger_near_the_head": b, "smooth_in_space": c}
     with whole(out.with_suffix(".json")) as part:
         part.write_text(json.dumps(report, indent=1) + "\n")
     for name, text in words:

@@ -28,8 +28,7 @@ BLUE, YELLOW, ORANGE, VERMILION, PURPLE = "#0072b2", "#f0e442", "#e69f00", "#d55
 plt.rcParams.update({
     "font.size": 9, "axes.titlesize": 9.5, "axes.titlelocation": "left", "xtick.labelsize": 8, "ytick.labelsize": 8,
     "legend.fontsize": 8, "legend.framealpha": 0.85, "legend.edgecolor": "none", "legend.title_fontsize": 8,
-    "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.6, "axes.axisbelow": True, "lines.linewidth": 1.2,
-    "lines.markersize": 5})
+    "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.6, "axes.axisbelow": True, "lines.linewidth": 1.2, "lines.markersize": 5})
 
 
 @dataclass(frozen=True)
@@ -52,8 +51,7 @@ KNOTS = {"3_1": Look("$3_1$ overhand", BLUE, "o"), "4_1": Look("$4_1$ figure-eig
 INTEGRATORS = {"core": Look("core, Euler", INK, "o"), "core_midpoint": Look("core, midpoint", VERMILION, "v"),
                "mujoco_euler": Look("MuJoCo Euler", BLUE, "s"),
                "mujoco_implicit": Look("MuJoCo implicit", ORANGE, "^"), "mujoco_rk4": Look("MuJoCo RK4", PURPLE, "D")}
-VERDICTS = {"agrees": Look("agrees", BLUE, "^"), "undecided": Look("undecided", GREY, "o"),
-            "disagrees": Look("disagrees", ORANGE, "v")}
+VERDICTS = {"agrees": Look("agrees", BLUE, "^"), "undecided": Look("undecided", GREY, "o"), "disagrees": Look("disagrees", ORANGE, "v")}
 ROUGHNESS = {"space": Look("along the body", BLUE, "o"), "time": Look("in time", ORANGE, "D")}
 SIDES = {"left": ((-6, 0), "right", "center"), "right": ((6, 0), "left", "center"), "above": ((0, 5), "center", "bottom")}  # of labels
 TICKS_APART = 1.3  # least ratio of two ticks

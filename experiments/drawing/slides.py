@@ -82,8 +82,7 @@ def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
                  float(at_cap.mean()) if steps.any() else np.nan,
                  float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
                  float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
-                 float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan,
-                 float(scene["expect"]["penetration"]),
+                 float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan, float(scene["expect"]["penetration"]),
                  "" if ended else failure_of(log, unmet), float(time[-1] - time[0]) if moved else np.nan)
 
 

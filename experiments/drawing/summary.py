@@ -200,8 +200,7 @@ def figure(text: str, unit: str = "") -> str:
 
 def requirements(log: HagfishLog, findings: list[audits.Finding]) -> list[str]:
     """What a run of the scene must show, as its audit has it, and what this one shows."""
-    rows = [[f.criterion, figure(f.value, f.unit), figure(f.bound), "yes" if f.met else "**no**"]
-            for f in findings]
+    rows = [[f.criterion, figure(f.value, f.unit), figure(f.bound), "yes" if f.met else "**no**"] for f in findings]
     qp = log["/steps/qp_time"][log.labels("/steps/solve") == "qp"]
     if qp.size:
         median = float(np.median(qp))

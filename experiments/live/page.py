@@ -9,8 +9,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 VIEW = HERE.parent / "view"
 THREE, D3 = Path("/usr/share/javascript/three"), Path("/usr/share/nodejs/d3/dist")
-LIBRARIES = {THREE / "three.min.js": "libjs-three", THREE / "examples/js/controls/OrbitControls.js": "libjs-three",
-             D3 / "d3.min.js": "node-d3"}
+LIBRARIES = {THREE / "three.min.js": "libjs-three", THREE / "examples/js/controls/OrbitControls.js": "libjs-three", D3 / "d3.min.js": "node-d3"}
 NOTICE = ("/* three.js and OrbitControls: copyright 2010-2019 three.js authors, MIT licence. D3: copyright 2010-2020 Mike Bostock, "
           "BSD licence. In the simulator: Eigen, MPL 2; {fmt}, toml11 and SIMDe, MIT licence; fast-cpp-csv-parser, BSD licence; "
           "libc++, Apache 2 with LLVM exceptions; wasi-libc and musl, MIT licence. */\n")

@@ -154,8 +154,7 @@ def rendered(path: Path) -> str:
             lines = stamp(what)
         else:
             table = read_table(path.parent / what)
-            lines = markdown(table.head, [row_of(table, words.strip()) for words in rows.split(";")] if rows
-                             else table.rows)
+            lines = markdown(table.head, [row_of(table, words.strip()) for words in rows.split(";")] if rows else table.rows)
         return "\n".join([match[0].split("\n", 1)[0], *lines, "<!-- end -->"])
 
     def value(match: re.Match[str]) -> str:
@@ -226,8 +225,7 @@ def differences(name: str, old: Table, new: Table, shares: dict[str, float]) -> 
 
 
 def git(*arguments: str) -> str:
-    return subprocess.run(["git", "-C", str(ROOT), *arguments], check=True, capture_output=True, text=True,
-                          errors="replace").stdout
+    return subprocess.run(["git", "-C", str(ROOT), *arguments], check=True, capture_output=True, text=True, errors="replace").stdout
 
 
 def processor() -> str:
@@ -284,8 +282,7 @@ def without_comments(path: str, text: str) -> str:
 def texts_of(commit: str, names: list[str]) -> list[str]:
     """Files as they were; empty where there was none."""
     asked = "".join(f"{commit}:{name}\n" for name in names).encode()
-    said = subprocess.run(["git", "-C", str(ROOT), "cat-file", "--batch"], input=asked, check=True,
-                          capture_output=True).stdout
+    said = subprocess.run(["git", "-C", str(ROOT), "cat-file", "--batch"], input=asked, check=True, capture_output=True).stdout
     texts, at = [], 0
     for _ in names:
         end = said.index(b"\n", at)
@@ -304,8 +301,7 @@ def motion_key(commit: str | None) -> str:
     """Of the code of MOTION at a commit, or as it lies here, without comments and messages."""
     lying = ("ls-files", "--cached", "--others", "--exclude-standard")
     listed = git(*(("ls-tree", "-r", "--name-only", commit) if commit else lying), "--", *MOTION)
-    names = sorted(name for name in listed.split() if name.endswith((".cpp", ".hpp"))
-                   and (commit or (ROOT / name).is_file()))
+    names = sorted(name for name in listed.split() if name.endswith((".cpp", ".hpp")) and (commit or (ROOT / name).is_file()))
     texts = texts_of(commit, names) if commit else [(ROOT / name).read_text(encoding="utf-8") for name in names]
     code = "\0".join(f"{name}\0{without_comments(name, text)}" for name, text in zip(names, texts))
     return hashlib.sha256(code.encode()).hexdigest()[:16]
@@ -313,8 +309,7 @@ def motion_key(commit: str | None) -> str:
 
 def scenes() -> list[str]:
     """All built-in scenes, and one by the other time rule."""
-    return [*sorted(path.stem for path in (ROOT / "data").glob("*.toml") if path.stem != "presets"),
-            "living_figure_eight time.rule=midpoint"]
+    return [*sorted(path.stem for path in (ROOT / "data").glob("*.toml") if path.stem != "presets"), "living_figure_eight time.rule=midpoint"]
 
 
 def digests() -> dict[str, dict[str, str]]:
@@ -328,8 +323,7 @@ def digests() -> dict[str, dict[str, str]]:
 def note_digests(program: Path) -> None:
     """`program SCENE` says `SCENE: DIGEST of ...`. Digests of scenes that are no more are dropped; a scene that was not
     yet has none."""
-    digest = lambda scene: subprocess.run([program, *scene.split()], check=True, capture_output=True,
-                                          text=True).stdout.split()[1]
+    digest = lambda scene: subprocess.run([program, *scene.split()], check=True, capture_output=True, text=True).stdout.split()[1]
     now = {scene: digest(scene) for scene in scenes()}
     known = {key: {scene: row.get(scene, "") for scene in now} for key,
              row in digests().items()} | {motion_key(None): now}
@@ -382,8 +376,7 @@ def mark() -> None:
 
 def list_pages() -> None:
     for name in names():
-        took = [note for path in tables_of(name)[:1] for note in read_table(path).notes
-                if note.startswith("The study took")]
+        took = [note for path in tables_of(name)[:1] for note in read_table(path).notes if note.startswith("The study took")]
         print(f"{name:16s} {question_of(name)} {took[0] if took else ''}".rstrip())
 
 

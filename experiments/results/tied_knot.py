@@ -15,8 +15,7 @@ SCENE = "reflex_overhand"
 def main(hagfish: Path, out: Path) -> None:
     log_path = out.with_suffix(".h5")
     done = subprocess.run([str(hagfish), "run", SCENE, "--set", "time.until=slide", "--set", "expect.types=[]", "--out", str(log_path),
-                           "--force", "--quiet"],
-                          capture_output=True, text=True, check=False)
+                           "--force", "--quiet"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise LogError(done.stderr.strip())
     log = HagfishLog(log_path)

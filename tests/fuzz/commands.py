@@ -4,17 +4,13 @@ import re
 
 import mutations
 
-SHORT = [
-    part
-    for value in ("duration=0.1", "step=0.01", "frame_interval=0.02")
-    for part in ("--set", "time." + value)
-]
+SHORT = [part
+    for value in ("duration=0.1", "step=0.01", "frame_interval=0.02") for part in ("--set", "time." + value)]
 SMALL = ["--set", "model.bodies=8"]
 
 
 # Good values of arguments and options, by the names that help gives them; what is not here is left out.
-ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "FILM": "film.csv",
-             "KNOT": "7_7"}
+ARGUMENTS = {"LOG": "good.h5", "SCENE": "table1", "GRID": "scene_grid.toml", "SET": "good.qp.h5", "FILM": "film.csv", "KNOT": "7_7"}
 OPTIONS = {
     "--force": [], "--quiet": [], "--qp": ["active-set"], "--backend": ["active-set"], "--repeat": ["1"],
     "--threads": ["1"], "--cpu-limit": ["3"], "--size": ["64x48"], "--stations": ["3"], "--times": ["3"],

@@ -340,8 +340,7 @@ def main():
         folder = pathlib.Path(temporary)
         bases, texts = make_bases(options, folder)
         results = multiprocessing.Queue()
-        workers = [multiprocessing.Process(target=work, args=(number, options, folder, bases, texts, results))
-                   for number in range(options.jobs)]
+        workers = [multiprocessing.Process(target=work, args=(number, options, folder, bases, texts, results)) for number in range(options.jobs)]
         for worker in workers:
             worker.start()
         done = [results.get() for _ in workers]

@@ -110,5 +110,4 @@ def phases(file: h5py.File) -> list[str]:
 def table(path: Path) -> dict[str, np.ndarray]:
     """A CSV by its columns: numbers, with nan where a field is empty, or words."""
     read = pandas.read_csv(path, keep_default_na=False, na_values=[""])
-    return {name: column.fillna("").to_numpy(str) if column.dtype == object else column.to_numpy(float)
-            for name, column in read.items()}
+    return {name: column.fillna("").to_numpy(str) if column.dtype == object else column.to_numpy(float) for name, column in read.items()}

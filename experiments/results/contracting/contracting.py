@@ -154,8 +154,7 @@ def choice_table(rows: Rows, out: Path) -> None:
         cells = [f"{MEASURES[measure]} to {limit:g} {unit(measure)}"]
         for law in LAWS:
             known = any(measure in row for row in pick(rows, law=law))
-            meshes = {row["bodies"] for row in pick(rows, law=law, simulator="here", outcome="extrapolated") if known
-                      and row[measure] <= limit}
+            meshes = {row["bodies"] for row in pick(rows, law=law, simulator="here", outcome="extrapolated") if known and row[measure] <= limit}
             near = [row for row in done(rows, law=law) if row["bodies"] in meshes and row[measure] <= limit]
             named = [f"{name}, {row['cpu_s']:.2g} s" for row in near for name, of in presets().items() if pick([row], **of)]
             run = [f"{name_of(near[0])}: {near[0][measure]:.2g} {unit(measure)}",
@@ -176,8 +175,7 @@ def steps_table(rows: Rows, out: Path) -> None:
             halves = [step for step in own if 2 * step in own and step > 2 * min(own)]  # the smallest make the limit, or are near it
             orders = [np.log2(own[2 * step][f"by_step_{measure}"] / own[step][f"by_step_{measure}"]) for step in halves]
             cells = [shown(own[step][f"by_step_{measure}"], ".2g") if step in own else "" for step in STEPS]
-            body.append([LAWS[law], MEASURES[measure], look.label, *cells,
-                         tables.span(orders, ".1f"),
+            body.append([LAWS[law], MEASURES[measure], look.label, *cells, tables.span(orders, ".1f"),
                          f"{own[5.0]['cpu_s']:.2g}" if 5.0 in own else ""])
     tables.write_table(out, "contracting_steps", ["slide by", "of", "method", *(f"off at {step:g} ms, %" for step in STEPS), "order",
                                                   "CPU at 5 ms, s"], body)
@@ -237,8 +235,7 @@ def dry_table(runs: dict[str, dict[float, tuple[float, np.ndarray]]], out: Path)
 def draw(rows: Rows, out: Path) -> None:
     shows = [("reflex", "knot_cm"), ("paper", "knot_cm"), *[("reflex", "torque_percent"), ("paper", "force_percent")] * 2]
     figure, panels = plots.panels(3, 2, (plots.WIDTH, 8.6), [
-        f"{LAWS[law]}: {MEASURES[measure]}" + (", by the step alone" if k > 3 else "")
-        for k, (law, measure) in enumerate(shows)])
+        f"{LAWS[law]}: {MEASURES[measure]}" + (", by the step alone" if k > 3 else "") for k, (law, measure) in enumerate(shows)])
     for k, (axes, (law, measure)) in enumerate(zip(panels, shows)):
         by_step = k > 3
         error, texts = f"by_step_{measure}" if by_step else measure, []

@@ -54,11 +54,9 @@ def served(folder: Path, law: str) -> str:
 
 def without_result(folder: Path) -> Row:
     """What there is of a search that wrote no result.csv: no path could be tightened."""
-    lines = {name: (folder / f"{name}.csv").read_text(encoding="utf-8").splitlines()
-             for name in ("tries", "candidates", "times")}
+    lines = {name: (folder / f"{name}.csv").read_text(encoding="utf-8").splitlines() for name in ("tries", "candidates", "times")}
     wall, cpu = lines["times"][-1].split(",")
-    return {"found": "no", "tries": str(len(lines["tries"])), "tied_in_soft_body": str(len(lines["candidates"])),
-            "cpu_s": cpu, "wall_s": wall}
+    return {"found": "no", "tries": str(len(lines["tries"])), "tied_in_soft_body": str(len(lines["candidates"])), "cpu_s": cpu, "wall_s": wall}
 
 
 def of_log(log: HagfishLog) -> Row:
@@ -159,8 +157,7 @@ def beside_table(rows: list[Row]) -> Cells:
                       stated("clamped: way", knot).split(";")[0]])
         if knot in found:
             lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-",
-                          number(found[knot]["largest_active_dyn_cm"], 2),
-                          number(found[knot]["slide_distance_cm"], 2)])
+                          number(found[knot]["largest_active_dyn_cm"], 2), number(found[knot]["slide_distance_cm"], 2)])
     return ["knot", "program", "other animals that it serves, of ten", "largest torque, dyn cm", "way, cm"], lines
 
 

@@ -19,8 +19,7 @@ from sweep_columns import read_cells
 
 SCENES = {f"living_{name}": knot for name, knot in plots.SCENES.items()}
 NUMBERS = (3, 6, 9, 12, 18)
-TRANSFERS = {"": "as found", "_start": "3 degrees of noise at the start", "_step": "h = 2 ms", "_bodies": "60 bodies",
-             "_mirror": "mirrored"}
+TRANSFERS = {"": "as found", "_start": "3 degrees of noise at the start", "_step": "h = 2 ms", "_bodies": "60 bodies", "_mirror": "mirrored"}
 
 
 FRAME, PERIOD, LENGTH = "controller.reduced_basis.frame", "controller.reduced_basis.period", "specimen.length"

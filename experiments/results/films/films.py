@@ -75,8 +75,7 @@ def turns(angle: np.ndarray, joint: int) -> np.ndarray:
 
 def joints_of(bend: np.ndarray, station: np.ndarray) -> np.ndarray:
     """Angles of the joints, times x joints, of bends at stations."""
-    return np.array([np.interp(JOINTS / BODIES, station, row.real) + 1j * np.interp(JOINTS / BODIES, station, row.imag)
-                     for row in bend]) * SPAN
+    return np.array([np.interp(JOINTS / BODIES, station, row.real) + 1j * np.interp(JOINTS / BODIES, station, row.imag) for row in bend]) * SPAN
 
 
 def ways(angle: np.ndarray) -> np.ndarray:
@@ -217,8 +216,7 @@ def forms(folder: Path) -> list[dict]:
             turned = rolled_to(fit, true_by, False) if torsion else true_by(np.zeros(len(fit.time)))
             off = fit.bend - turned
             rows.append({"form": name, "noise (cm)": noise, "code": code, "verdict": said.split("\n")[1].split(":")[0],
-                         "off (cm)": float(said.split("fitted: ")[1].split(" cm")[0]),
-                         "bends off, rms (rad/L)": rms(off),
+                         "off (cm)": float(said.split("fitted: ")[1].split(" cm")[0]), "bends off, rms (rad/L)": rms(off),
                          "in the middle eight tenths (rad/L)": rms(off[:, (fit.station > 0.1) & (fit.station < 0.9)]),
                          "mean error (rad/L)": float(np.mean(fit.error.imag)),
                          "within bands of 90 %": in_band(fit, turned)})
@@ -406,20 +404,17 @@ def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: li
     times = number(films, "CPU (s)")
     few = [row for row in films if row["outcome"] == "right" and row["told"] == "no" and float(row["within bands of 90 %"]) <= 0.75]
     return [[name, str(value)] for name, value in [
-        ("a band of 90 %, standard errors to each side", WITHIN),
-        ("length of the body, cm", LENGTH),
+        ("a band of 90 %, standard errors to each side", WITHIN), ("length of the body, cm", LENGTH),
         ("closed forms without noise: points off by at most, cm", worst(exact, "off (cm)")),
         ("closed forms without noise: bends off by at most, rad/L", worst(exact, bends)),
-        ("closed forms with noise: bends off by at most, rad/L", worst(noisy, bends)),
-        ("runs as films", len(runs)),
+        ("closed forms with noise: bends off by at most, rad/L", worst(noisy, bends)), ("runs as films", len(runs)),
         ("runs that get a program", len(number(runs, "shapes off (cm)"))),
         ("runs: shapes off by at most, cm", worst(runs, "shapes off (cm)")),
         ("runs called doubtful", sum(row["verdict"] == "doubtful" for row in runs)),
         ("runs whose animal ties the same", sum(row.get("run ties") == "the same" for row in runs)),
         ("runs: bends within bands of 90 %, %", f"{min(held):.0f} to {max(held):.0f}"),
         ("runs of which 85 to 95 % are", sum(85 <= share <= 95 for share in held)),
-        ("runs: CPU of a film, s", f"{min(took):.0f} to {max(took):.0f}"),
-        ("damaged films", len(films)),
+        ("runs: CPU of a film, s", f"{min(took):.0f} to {max(took):.0f}"), ("damaged films", len(films)),
         ("silently off", sum(row["outcome"] == "silently off" for row in films)),
         ("right with few bends in their bands and nothing said", len(few)),
         ("damaged: median fit, s", f"{np.median(times):.2g}"),

@@ -44,8 +44,7 @@ class Slide:
 def slide_of(log: HagfishLog, way: float) -> Slide:
     means = log.intervals_in("slide")
     work = log["/diagnostics/work_thigmotaxis"][log.in_phase("slide")]
-    return Slide(way, float(log["/mean/thigmotaxis/sum"][means].mean()), float(work[-1] - work[0]) / way,
-                 moments_of(log, "thigmotaxis", means),
+    return Slide(way, float(log["/mean/thigmotaxis/sum"][means].mean()), float(work[-1] - work[0]) / way, moments_of(log, "thigmotaxis", means),
                  np.minimum.accumulate(log["/knot/head_end"][means]))
 
 

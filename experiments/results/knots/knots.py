@@ -56,8 +56,7 @@ def draw_pictures(logs: dict[str, HagfishLog], out: Path) -> None:
             label_ends(axes, log, stage.frame, view, p, per_cm)
             ends = [log[f"/knot/{end}_end"][stage.frame] for end in ("head", "tail")]
             spans = f", {ends[0]:.1f} to {ends[1]:.1f} cm" if np.all(np.isfinite(ends)) else ""
-            axes.text(0.03, 0.0, f"$t$ = {log['/trajectory/time'][stage.frame]:.2f} s{spans}", fontsize=7, va="top",
-                      transform=axes.transAxes)
+            axes.text(0.03, 0.0, f"$t$ = {log['/trajectory/time'][stage.frame]:.2f} s{spans}", fontsize=7, va="top", transform=axes.transAxes)
             if column == 0:
                 axes.text(0.03, 1.0, plots.KNOTS[knot].label, fontsize=8.5, va="bottom", weight="bold", transform=axes.transAxes)
         top -= height + above + below
@@ -165,14 +164,12 @@ def write_tables(folder: Path, plain: dict[str, Cell], mirrored: dict[str, Cell]
         row(f"audit at h = {1000 * float(step):g} ms", lambda k, step=step: outcome(steps[k][step][0]))
     figures = {k: force_figures(logs[k], read_means(logs[k])) for k in logs}
     for name, key, form in (("slide, s", "seconds", ".2f"), ("slide, cm", "travel", ".2f"),
-                            (f"sum of the four λ/h: median of the {MEAN}s, dyn", "median", ".0f"),
-                            ("mean over the slide, dyn", "mean", ".0f"),
+                            (f"sum of the four λ/h: median of the {MEAN}s, dyn", "median", ".0f"), ("mean over the slide, dyn", "mean", ".0f"),
                             (f"largest {MEAN}, dyn", "peak_multipliers", ".0f"),
                             (f"f_thigmo of a hinge: largest {MEAN}, dyn cm", "peak", ".0f"),
                             (f"of 99 % of the {MEAN}s, no hinge above", "peak99", ".0f"),
                             (f"largest hinge, median of the {MEAN}s", "median_hinge", ".0f"),
-                            ("effort: mean size of f_thigmo along the body, over time, for each cm of slide, dyn s",
-                             "effort", ".0f"),
+                            ("effort: mean size of f_thigmo along the body, over time, for each cm of slide, dyn s", "effort", ".0f"),
                             ("work, erg", "work", ".0f")):
         row(name, lambda k, key=key, form=form: format(figures[k][key], form))
     modes = {k: claims.smooth_in_space(claims.read_sliding(logs[k]))["axes"].values() for k in logs}

@@ -71,8 +71,7 @@ def claims_table(folder: Path) -> None:
         own = [row for row in judged if row["outcome"] == "slid"]
         others = Counter(row["outcome"] for row in judged if row["outcome"] != "slid")
         verdicts = [claims.over_runs([row[name] for row in own]) for name in claims.NAMES]
-        spread = lambda what: "{1:.3g} ({0:.3g} to {2:.3g})".format(*np.percentile([row[what] for row in own],
-                                                                                   [0, 50, 100])) if own else ""
+        spread = lambda what: "{1:.3g} ({0:.3g} to {2:.3g})".format(*np.percentile([row[what] for row in own], [0, 50, 100])) if own else ""
         rows.append([knot, f"{len(own)} of {len(judged)}", *verdicts, *map(spread, claim_row.MEASURES[1:]),
                      ", ".join(f"{what}: {count}" for what, count in others.items())])
     tables.write_table(folder, "living_claims", ["knot", "let go at the head", *claims.NAMES, "beyond, dyn cm",

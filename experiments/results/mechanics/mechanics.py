@@ -31,8 +31,7 @@ def twisted(folder: Path) -> None:
         if name[1] == "in turn":  # of second order
             rows.append([*name, "extrapolated", f"{round(100 * (error - (coarser - error) / 3), 2) + 0:.2f}", "", ""])
     write_table(folder, "mechanics", ["problem", "universal joints", "bending over twist rigidity", "bodies", "error of the moment, %",
-                                      "order", "CPU time, s"],
-                rows)
+                                      "order", "CPU time, s"], rows)
 
 
 def hooked(folder: Path) -> None:
@@ -40,8 +39,7 @@ def hooked(folder: Path) -> None:
     for rope in read_csv(folder / "hooked.csv", ["value"]):
         value, expected = float(rope["value"]), float(rope["expected"])
         rows.append([rope["problem"], rope["figure"], rope["link"], rope["bodies"], f"{value:.4f}", f"{expected:.4f}",
-                     f"{100 * (value / expected - 1):.2f}",
-                     rope["rest"], rope["cpu"]])
+                     f"{100 * (value / expected - 1):.2f}", rope["rest"], rope["cpu"]])
     write_table(folder, "mechanics_hooked", ["rope", "figure", "link", "bodies", "measured", "theory", "error, %", "at rest",
                                              "CPU time, s"], rows)
 
@@ -57,8 +55,7 @@ def mujoco(folder: Path) -> None:
                      here["rest"], here["cpu"]])
         for rope in ropes:
             rows.append(["MuJoCo 2.2.2", rope["step"], rope["density"], rope["bodies"], f"{float(rope['tips']):.4f}",
-                         error(rope["tips"], rope["expected"]),
-                         rope["overlap"], rope["rest"], rope["cpu"]])
+                         error(rope["tips"], rope["expected"]), rope["overlap"], rope["rest"], rope["cpu"]])
     write_table(folder, "mechanics_mujoco", ["simulator", "step, s", "mass, g/cm", "bodies", "distance of the tips, diameters", "error, %",
                                              "overlap of capsules, diameters", "at rest", "CPU time, s"], rows)
 
@@ -93,8 +90,7 @@ def loose(folder: Path) -> None:
         error = f"{100 * (float(knot['load']) / 0.5 - 1):.1f}"
         twist = knot["ratio"] if float(knot["ratio"]) else "no twist"
         rows.append([knot["type"], knot["thin"], knot["bodies"], twist, knot["load"], error, knot["integral"], knot["touches"],
-                     knot["interval"],
-                     knot["points"], knot["rest"], knot["cpu"]])
+                     knot["interval"], knot["points"], knot["rest"], knot["cpu"]])
     for kind in dict.fromkeys(knot["type"] for knot in knots):
         thin = [knot for knot in knots if knot["type"] == kind and knot["series"] == "thin"][-3:]
         load = limit([(float(knot["thin"]) ** 2, float(knot["load"])) for knot in thin])
@@ -114,14 +110,12 @@ def tight(folder: Path) -> None:
         same = [knot for knot in knots if knot["type"] == kind]
         for knot in same:
             rows.append([kind, knot["link"], knot["bodies"], knot["shortening"], f"{100 * (float(knot['shortening']) / rope - 1):.2f}", "",
-                         "", knot["rest"],
-                         knot["cpu"]])
+                         "", knot["rest"], knot["cpu"]])
         ideal = limit([(float(knot["link"]) ** 2, float(knot["shortening"])) for knot in same])
         rows.append([kind, "extrapolated", "", f"{ideal:.3f}", f"{100 * (ideal / rope - 1):.2f}", f"{chain:.2f}", f"{rope:.2f}", "", ""])
     write_table(folder, "mechanics_tight",
                 ["knot", "link, diameters", "bodies", "shortening, diameters", "over the rope code's, %", "animal's chain before", "rope code",
-                 "at rest",
-                 "CPU time, s"], rows)
+                 "at rest", "CPU time, s"], rows)
 
 
 def main(folder: Path) -> None:

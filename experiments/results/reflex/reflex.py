@@ -27,14 +27,12 @@ KNOTS = list(plots.KNOTS)
 CASES = [(knot, head) for head in ("clamped", "free") for knot in KNOTS]
 USUAL, FINE_MESH, FINE_STEP, FINEST = "100; 2", "200; 2", "100; 1", "200; 1"  # bodies; step, ms
 STIFFNESS, RIGIDITY, DAMPING = 5e5, 2e5, 3e3  # B_a of living_overhand; B and C of the specimen: dyn cm^2, dyn cm^2, dyn cm^2 s
-NAMES = {"delay": "senses late by, s", "noise": "senses wrong by, share of each angle", "bodies": "bodies",
-         "step": "step, s",
+NAMES = {"delay": "senses late by, s", "noise": "senses wrong by, share of each angle", "bodies": "bodies", "step": "step, s",
          "drag": "drag across the body, g/(s cm)", "muscle": "muscles B_a, dyn cm²", "damping": "damping C, dyn cm² s",
          "stiffness": "body EI, dyn cm²", "animals": "other animals", "starts": "starts with 3° of noise"}
 SHIFT = 0.0106  # cm: the scenes' 2.5e-4 L
 UNTIED = "not tied"
-CHANGES = {"shift": "Δ, cm", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"],
-           "bending_damping": NAMES["damping"],
+CHANGES = {"shift": "Δ, cm", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"], "bending_damping": NAMES["damping"],
            "noise_deg": "starts with noise, degrees"}
 SIZE, LEGEND = "560x500", 80  # pixels of a picture, and of these its legend's height
 LOOSE = {"tighten": "where the knot is first there", "form": "a second before that"}
@@ -113,8 +111,7 @@ def meshes_table(rows: list[Row]) -> Cells:
     body = []
     for knot, head in CASES:
         times = {row.setting: row.middle for row in pick(own, knot=knot, head=head)}
-        body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts),
-                     apart(times.get("200"), times.get("400"))])
+        body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts), apart(times.get("200"), times.get("400"))])
     return ["middle of the slide, s", *(f"{count} bodies" for count in counts), "400 against 200, %"], body
 
 
@@ -135,8 +132,7 @@ def loose_table(rows: list[Row]) -> Cells:
 def grid_table(rows: list[Row], study: str) -> Cells:
     own = pick(rows, study=study)
     settings = list(dict.fromkeys(row.setting for row in own))
-    return ["what copies", *KNOTS], [[setting, *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)]
-                                     for setting in settings]
+    return ["what copies", *KNOTS], [[setting, *(came(one(own, knot=knot, setting=setting)) for knot in KNOTS)] for setting in settings]
 
 
 def speed_table(rows: list[Row]) -> Cells:
@@ -187,8 +183,7 @@ def claims_table(rows: list[Row]) -> Cells:
                 body.append([row.knot, name, figure_of(row.behind, 2), figure_of(row.near, 2), row.rank,
                              *(figure_of(value, 2) for value in (row.rough_space, row.rough_time, row.likeness))])
     return ["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it",
-            "grows to the head", "roughness along the body", "roughness in time",
-            "cosine with the curvature's gradient"], body
+            "grows to the head", "roughness along the body", "roughness in time", "cosine with the curvature's gradient"], body
 
 
 def pull_table(rows: list[Row]) -> Cells:
@@ -259,17 +254,13 @@ def figures_table(rows: list[Row]) -> Cells:
     plate, no_plate = (one(rows, study=study, knot="5_2", head="clamped", setting=setting) for study, setting in (
         ("knots", USUAL), ("mujoco", "from the slide")))
     steps = max(off(key, *settings) for key in ("time", "middle") for settings in ((FINE_STEP,), (FINEST, FINE_MESH)))
-    return ["figure", "value"], [
-        ["runs that slid", slid_of(usual)],
+    return ["figure", "value"], [["runs that slid", slid_of(usual)],
         ["effort, of that of Eq. 6", span(efforts, two)],
         ["times at two steps differ by at most, %", one_digit(steps)],
         ["skins touch within, cm", f"{skin.TOUCHING:g}"],
-        *([f"arcs of the middle, {knot}, cm", f"{first:g} to {last:g}"] for knot,
-          (first, last) in reflex_runs.MIDDLE.items()),
-        *([f"meshes differ, {head}, %", one_digit(off("middle", FINE_MESH, head=head))]
-          for head in ("free", "clamped")),
-        *([f"meshes by a parabola, {knot}, %", curved(knot)] for knot in KNOTS
-          if pick(rows, study="curves", knot=knot)),
+        *([f"arcs of the middle, {knot}, cm", f"{first:g} to {last:g}"] for knot, (first, last) in reflex_runs.MIDDLE.items()),
+        *([f"meshes differ, {head}, %", one_digit(off("middle", FINE_MESH, head=head))] for head in ("free", "clamped")),
+        *([f"meshes by a parabola, {knot}, %", curved(knot)] for knot in KNOTS if pick(rows, study="curves", knot=knot)),
         ["speed of a free head, of the law's", span(free, two)],
         ["way where nothing is copied, cm", span(nothing, one_digit)],
         ["shuffled neighbours that lose the knot", f"{len(pick(shuffled, held='no'))} of {len(shuffled)}"],

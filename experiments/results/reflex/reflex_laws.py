@@ -158,8 +158,7 @@ def curves(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for scene in KNOTS.values():
         for bodies in (100, 200):
-            with hagfish.Simulation(scene, set=SETTINGS | {"model.bodies": bodies, "time.step": 0.002,
-                                                           "time.until": "slide"}, law=law(parabola),
+            with hagfish.Simulation(scene, set=SETTINGS | {"model.bodies": bodies, "time.step": 0.002, "time.until": "slide"}, law=law(parabola),
                                     log=str(folder / f"{scene}-{bodies}.h5")) as sim:
                 sim.run()
 

@@ -293,8 +293,7 @@ def read_study(folder: Path) -> dict[str, list[Row]]:
     return parts
 
 
-PARTS = ("knots", "meshes", "curves", "paper", "knockouts", "laws", "rate", "speed", *SWEEPS, "pull", "tighten", "form",
-         "beside", "mujoco")
+PARTS = ("knots", "meshes", "curves", "paper", "knockouts", "laws", "rate", "speed", *SWEEPS, "pull", "tighten", "form", "beside", "mujoco")
 
 
 def with_parts(rows: list[Row], parts: dict[str, list[Row]]) -> list[Row]:
@@ -314,6 +313,5 @@ def read_table(path: Path) -> tuple[list[Row], list[str]]:
     rows = []
     for line in table.rows:
         cells = {field.name: text for field, text in zip(fields(Row), line, strict=True)}
-        rows.append(Row(**{name: text if name in words else float(text) if text else None for name,
-                           text in cells.items()}))
+        rows.append(Row(**{name: text if name in words else float(text) if text else None for name, text in cells.items()}))
     return rows, table.notes

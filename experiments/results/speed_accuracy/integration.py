@@ -62,15 +62,13 @@ def draw(axes: Any, results: Results) -> None:
             note(last, (6, -1), "left", "center")
     agreement = float(results["/reference/agreement"][0])
     axes.axhline(agreement, color=plots.GREY, lw=0.8, ls="--")
-    axes.text(0.98, agreement * 1.4, "two references differ", transform=axes.get_yaxis_transform(), ha="right",
-              fontsize=7, color=plots.GREY)
+    axes.text(0.98, agreement * 1.4, "two references differ", transform=axes.get_yaxis_transform(), ha="right", fontsize=7, color=plots.GREY)
     axes.set_xlabel("CPU time per simulated time")
 
 
 def main(folder: Path, out: Path) -> None:
     motions = {motion: Results(folder / f"{motion}.h5") for motion in MOTIONS}
-    figure, panels = plots.panels(1, 3, (11, 4.4), [results.attribute("motion") for results in motions.values()],
-                                  sharex=True, sharey=True)
+    figure, panels = plots.panels(1, 3, (11, 4.4), [results.attribute("motion") for results in motions.values()], sharex=True, sharey=True)
     for axes, results in zip(panels, motions.values()):
         draw(axes, results)
     panels[0].set(ylabel="largest error of a body centre at 0.5 s, cm", xlim=(4e-4, 40), ylim=(1e-10, 30))

@@ -119,8 +119,7 @@ def draw(folder: Path, path: Path) -> None:
 
 
 def main(folder: Path) -> None:
-    tables.write_table(folder, "thigmotaxis", ["knot", "head", "Eq. 6 at", "head end of the knot, cm",
-                                               "its tail end, of what taper asks, cm",
+    tables.write_table(folder, "thigmotaxis", ["knot", "head", "Eq. 6 at", "head end of the knot, cm", "its tail end, of what taper asks, cm",
                                                "curvature travels, cm (correlation)", "the knot", "steps that meet Eq. 6, %", "largest torque, of capacity",
                                                "work, erg/cm", "of it f_thigmo"], law_rows(folder))
     tables.write_table(folder, "thigmotaxis_runs", ["what is changed", "slide by both ends", "least share, %", "median share, %",

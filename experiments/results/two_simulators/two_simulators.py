@@ -49,8 +49,7 @@ def played_back(results: Results) -> list[list[str]]:
 
 
 def main(compare: Path, playback: Path, out: Path) -> None:
-    write_table(out, "two_simulators", ["largest difference, of its scale", "required", "free head", "clamped head"],
-                compared(Results(compare)))
+    write_table(out, "two_simulators", ["largest difference, of its scale", "required", "free head", "clamped head"], compared(Results(compare)))
     write_table(out, "two_simulators_playback", ["restarted every, s", *INTERVALS], played_back(Results(playback)))
 
 

@@ -30,8 +30,7 @@ def holes(folder: Path) -> None:
     rows = [[*knot_and_law(run), f"{run['strength']:g}", f"{1000 * run['step']:g}", number(run["pulls"]), number(run["gives"]),
              number(run["out"]),
              "yes" if run["held"] else "no", overlap(run)] for run in taken(folder / "holes" / "logs")]
-    tables.write_table(folder, "world", ["knot", "law", "held with, N", "step, ms", "pulls from, s", "it gives at, s",
-                                         "head out at, s",
+    tables.write_table(folder, "world", ["knot", "law", "held with, N", "step, ms", "pulls from, s", "it gives at, s", "head out at, s",
                                          "type held until then", "deepest overlap, 1e-3 cm"], rows)
 
 
@@ -45,11 +44,9 @@ def waves(folder: Path) -> None:
         means, peaks, over = (np.array([run[name] for run in runs]) for name in ("mean", "peak", "over"))
         strength = runs[0]["strength"]
         rows.append([*wave, f"{len(runs)}", f"{means.min():.2g} to {means.max():.2g}", f"{peaks.min():.2g} to {peaks.max():.2g}",
-                     f"{100 * over.mean():.2g}", "no" if (peaks < strength).all() else "yes" if (peaks > strength).all()
-                     else "at some phases",
+                     f"{100 * over.mean():.2g}", "no" if (peaks < strength).all() else "yes" if (peaks > strength).all() else "at some phases",
                      f"{max(run['torque'] for run in runs):.1e}".replace("+0", "")])
-    tables.write_table(folder, "world_waves", ["angle, rad", "length, L", "period, s", "phases", "mean pull, N",
-                                               "largest pull, N",
+    tables.write_table(folder, "world_waves", ["angle, rad", "length, L", "period, s", "phases", "mean pull, N", "largest pull, N",
                                                "over what holds, % of time", "head comes out", "largest torque, dyn cm"],
                        rows)
 

@@ -51,8 +51,7 @@ def wave(log: HagfishLog) -> dict[str, Any]:
     """The pull is a mean over a frame's time, as that at which food gives, N."""
     late, strength = log["/trajectory/time"] > SETTLED, log.scene()["food"]["strength"]
     pull = -log["/mean/forces/head"][late, 0] / 1e5
-    return {"wave": log.scene()["title"].split(), "mean": float(pull.mean()), "peak": float(pull.max()),
-            "over": float((pull > strength).mean()),
+    return {"wave": log.scene()["title"].split(), "mean": float(pull.mean()), "peak": float(pull.max()), "over": float((pull > strength).mean()),
             "strength": strength, "torque": float(np.abs(log["/mean/forces/active"][late]).max())}
 
 

@@ -72,8 +72,7 @@ def main(folder: Path) -> None:
         across = [held(pole, pulled(run, sign * force * axis)) for axis in pole.across for sign in (1, -1)]
         rows.append([f"{force:g}", f"{way:.3g}", f"{force * 1e5 / mass * HELD_FOR**2 / 2:.3g}",
                      *("yes" if each else "no" for each in across)])
-    tables.write_table(folder, "world_pole", ["force, N", "way along the pole in 1 s, no water, cm",
-                                              "that of a free fall, cm",
+    tables.write_table(folder, "world_pole", ["force, N", "way along the pole in 1 s, no water, cm", "that of a free fall, cm",
                                               *(f"holds across, {degrees} degrees" for degrees in (0, 180, 90, 270))], rows)
 
 

@@ -35,8 +35,7 @@ class Log:
             "/trajectory/time": 0.02 * np.arange(frames), "/trajectory/position": np.tile(hairpin(), (frames, 1, 1)),
             "/thigmotaxis/spline_a": strand(5.0), "/thigmotaxis/spline_b": strand(34.0), "/thigmotaxis/lambda": four,
             "/pull/force": np.array([np.nan, 1.5e5, 1.5e5]),
-            "/pull/plate": np.array([np.nan, 1.5e5, 1.5e5]), "/pull/torque": np.full(frames, 2e5),
-            "/model/length": np.ones(BODIES),
+            "/pull/plate": np.array([np.nan, 1.5e5, 1.5e5]), "/pull/torque": np.full(frames, 2e5), "/model/length": np.ones(BODIES),
             "/contacts/frame": np.array([0, 1, 2, 2]), "/contacts/spline_a": np.array([20.0, 19.5, 19.5, 4.0]),
             "/contacts/spline_b": np.array([np.nan, np.nan, np.nan, 35.0]),
             "/contacts/force": np.array([9e5, 1.5e5, 1.5e5, 0.2e5])}

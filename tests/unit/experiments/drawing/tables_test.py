@@ -31,7 +31,6 @@ def test_largest_step_that_a_method_survives(outcomes, text):
 
 def test_an_outcome_or_method_that_no_figure_knows_is_refused(tmp_path):
     for method, outcome in (("default", "fine"), ("magic", "ok")):
-        tables.write_csv(tmp_path / "s.csv", ["scene", "level", "method", "h_ms", "outcome"],
-                         [["whip", "as is", method, "1", outcome]])
+        tables.write_csv(tmp_path / "s.csv", ["scene", "level", "method", "h_ms", "outcome"], [["whip", "as is", method, "1", outcome]])
         with pytest.raises(LogError, match="no such"):
             stability.read(tmp_path / "s.csv")

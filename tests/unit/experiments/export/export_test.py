@@ -11,8 +11,7 @@ from animal import axes_along, spans, spline_point, total_bend
 from program import hagfish, logged, phases, refused, sets, table
 
 DIGITS = 1e-8  # of a column's largest: nine digits are written
-FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "moments", "phases",
-         "skin", "summary")
+FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "moments", "phases", "skin", "summary")
 KINDS = ("active", "thigmotaxis", "contact", "limit", "wall")
 SI = {"cm2": ("m2", 1e-4), "cm": ("m", 1e-2), "dyn": ("N", 1e-5), "dyn_cm": ("N_m", 1e-7), "dyn_cm_s": ("N_m_s", 1e-7),
       "erg": ("J", 1e-7), "g": ("kg", 1e-3), "cm_per_s": ("m_per_s", 1e-2), "rad_per_cm": ("rad_per_m", 1e2)}

@@ -71,8 +71,7 @@ def test_what_it_says_and_leaves_is_the_spread_of_the_runs(folder):
 
 def test_runs_that_end_otherwise_do_not_count():
     number = lambda *values: {name: np.array(values, float) for name in sweep_columns.FIGURES}
-    texts = {"outcome": ["ok", "ok", "never tied", "ok"], "unmet": [""] * 4, "message": [""] * 4,
-             "knot": ["3_1", "3_1", "", "0_1"]}
+    texts = {"outcome": ["ok", "ok", "never tied", "ok"], "unmet": [""] * 4, "message": [""] * 4, "knot": ["3_1", "3_1", "", "0_1"]}
     made = sweep_columns.SweepTable({}, texts, number(10, 12, 50, 90))
     found = sure.Sure(made, ["as it is", "step", "step", "bodies"])
     step, bodies, _, every = found.spreads(found.table.figures["slide_distance_cm"])
