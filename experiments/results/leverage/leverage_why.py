@@ -45,12 +45,12 @@ def draw_strand(axes: plots.plt.Axes, strand: Strand, log: HagfishLog) -> None:
     axes.bar(strand.arc, strand.plate, width=0.4, color=plots.BLUE, alpha=0.6, label="head plate, each body")
     axes.bar(strand.arc, strand.thigmotaxis, width=0.4, color=plots.VERMILION, label="thigmotaxis along the body, to the tail")
     axes.plot(strand.arc, strand.tension, color=plots.INK, label="tension")
-    axes.axhline(pull.mean, color=plots.INK, ls=":", lw=0.8)
-    axes.text(42, pull.mean, f"pull {pull.mean:.2f} N", fontsize=7.5, ha="right", va="bottom")
+    axes.axhline(pull.mean, color=plots.INK, ls=":", lw=0.8, label="pull at the food")
+    axes.annotate(f"{pull.mean:.2f} N", (42, pull.mean), (0, -3), textcoords="offset points", fontsize=8, ha="right", va="top")
     frames = settled(log)
-    for end in ("head", "tail"):
-        axes.axvline(float(np.nanmean(log[f"/knot/{end}_end"][frames])), color=plots.ORANGE, ls="--", lw=0.8)
-    axes.set(xlabel="arc from the head, cm", ylabel="N", xlim=(0, 42.4))
+    for end, label in (("head", "ends of the knot"), ("tail", None)):
+        axes.axvline(float(np.nanmean(log[f"/knot/{end}_end"][frames])), color=plots.ORANGE, ls="--", lw=0.8, label=label)
+    axes.set(xlabel="arc from the head, cm", ylabel="force, N", xlim=(0, 42.4))
 
 
 def main(folder: Path, out: Path) -> None:
@@ -60,7 +60,7 @@ def main(folder: Path, out: Path) -> None:
     logs = {cell.axes["scene"]: cell.log for cell in read_cells(folder) if cell.axes["mirror"] == "false"}
     for panel, log in zip(axes[1:], map(logs.get, SHOWN), strict=True):
         draw_strand(panel, read_strand(log), log)
-    axes[1].legend(loc="center right")
+    plots.legend_above(figure, axes[1].get_legend_handles_labels()[0], 3, 0.07)
     plots.save(figure, out)
 
 
