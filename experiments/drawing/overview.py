@@ -16,7 +16,8 @@ from script import run_script
 ROWS = {"first contact, $t_a$": "-", "first contact, $t_b$": "--", "last contact, $t_a$": ":", "last contact, $t_b$": "-."}
 ENERGIES = {"kinetic_energy": "kinetic", "elastic_energy": "elastic", "work_tip": "work of the script", "work_active": "work of muscles",
             "work_thigmotaxis": "work of f_thigmo", "dissipated": "dissipated"}
-LARGE = 99  # percentile at which colours saturate
+LARGE = 99  # percentile of what is before the release, at which colours saturate
+PEAK, TALL = 99, 3  # percentile of a panel's lines, and how many times as much is cut off: the knot's release would hide all else
 PHASE_WIDTH = 0.07  # of the time shown: what the name of a phase takes
 
 
@@ -28,7 +29,8 @@ def bending(log: HagfishLog, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 
 def draw_map(axes: Any, log: HagfishLog, arc: np.ndarray, values: np.ndarray, unit: str) -> None:
-    time, large = log["/trajectory/time"], values[values > 0]
+    time, held = log["/trajectory/time"], values[~np.isin(log.labels("/trajectory/phase"), ("release", "free"))]
+    large = held[held > 0]
     image = axes.imshow(values.T, aspect="auto", origin="lower", cmap="viridis", vmin=0,
                         vmax=np.percentile(large, LARGE) if large.size else 1,
                         extent=(time[0], time[-1], arc[0], arc[-1]), interpolation="nearest")
@@ -37,7 +39,7 @@ def draw_map(axes: Any, log: HagfishLog, arc: np.ndarray, values: np.ndarray, un
     axes.grid(visible=False)
     axes.set(ylabel="cm from the head", ylim=(0, log["/model/length"].sum()))
     axes.legend(loc="lower left", facecolor="#404040", labelcolor="white")
-    axes.figure.colorbar(image, ax=axes, label=unit, pad=0.01)
+    axes.figure.colorbar(image, ax=axes, label=unit, pad=0.01, extend="max")
 
 
 def mark_phases(panels: Any, log: HagfishLog) -> None:
@@ -63,6 +65,12 @@ def draw_lines(axes: Any, time: np.ndarray, lines: dict[str, np.ndarray], label:
         axes.plot(time, values, color=colour, ls=style, label=name)
     axes.set_ylabel(label)
     axes.margins(y=0.15)
+    known = np.concatenate(list(lines.values()))
+    known = known[np.isfinite(known)]
+    most = np.percentile(np.abs(known), PEAK) if known.size else 0
+    if 0 < TALL * most < np.abs(known).max(initial=0) and label != "erg":
+        axes.set_ylim(-TALL * most if known.min() < 0 else -0.1 * most, TALL * most)
+        axes.set_title(f"{axes.get_title('left')}; peaks are cut off")
     axes.legend(loc="upper left", ncol=columns)
 
 
