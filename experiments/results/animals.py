@@ -1,6 +1,6 @@
-"""Settings of other animals, drawn at random: a line each, `--set KEY=VALUE ...`, or all as an axis of `hagfish sweep`.
+"""Other animals, drawn at random, as an axis of `hagfish sweep` or as specimen files.
 
-Usage: animals.py COUNT [axis] [slender]
+Usage: animals.py COUNT [slender]      the axis
        animals.py specimen NUMBER      the specimen file of one of them, from 1
        animals.py specimen slender     that of the Pacific hagfish, 1.5 times as long and no thicker
 
@@ -80,21 +80,18 @@ def write(own: dict[str, object]) -> None:
         print(f"\n[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items()), sep="\n")
 
 
-def main(count: int, axis: bool, longer: float) -> None:
+def axis(count: int, longer: float) -> None:
     animals = [settings(FIRST_SEED + animal, longer) for animal in range(count)]
-    if axis:
-        print("[[axis]]")
-        for key in animals[0]:
-            print(f'"{key}" = {[animal[key] for animal in animals]}')
-        return
-    for animal in animals:
-        print(*(f"--set {key}={str(value).replace(' ', '')}" for key, value in animal.items()))
+    print("[[axis]]")
+    for key in animals[0]:
+        print(f'"{key}" = {[animal[key] for animal in animals]}')
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["specimen", "slender"]:
+    what, *others = sys.argv[1:]
+    if what != "specimen":
+        axis(int(what), SLENDER if others else 1)
+    elif others == ["slender"]:
         slender_file()
-    elif sys.argv[1] == "specimen":
-        specimen_file(int(sys.argv[2]))
     else:
-        main(int(sys.argv[1]), "axis" in sys.argv[2:], SLENDER if "slender" in sys.argv[2:] else 1)
+        specimen_file(int(others[0]))

@@ -2,7 +2,7 @@
 # Sourced by a page's study.sh, not run: sets up and builds, and makes the output folder, the script's argument or out/NAME:
 #   bash experiments/results/NAME/study.sh [OUTPUT_FOLDER]
 # Comes after targets=(...), what to build besides the program, if anything. Leaves root, page (its folder), grids (of `hagfish
-# sweep`), out, hagfish (the program), stiffness (settings), draw and swept. When the script ends, in whatever way, it says what is in out
+# sweep`), out, hagfish (the program), draw and swept. When the script ends, in whatever way, it says what is in out
 # and how long it took; building counts, and what an earlier run of it left does not.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 page=$(cd "$(dirname "$0")" && pwd)
@@ -22,15 +22,6 @@ bash "$root/experiments/setup.sh" --target hagfish "${targets[@]}"
 # Serial BLAS, so that runs repeat to the last bit.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 export hagfish=$root/build/release/experiments/hagfish HAGFISH_PROGRAM=$root/build/release/experiments/hagfish # for shell, for Python
-
-# Flexural rigidity $1 (dyn cm^2), and with it what the specimen file has in proportion to it.
-stiffness() {
-  awk -v b="$1" 'BEGIN {
-    split("bending_stiffness 1 bending_damping 0.015 twist_stiffness 0.65 twist_damping 0.01", f, " ")
-    for (i = 1; i < 8; i += 2)
-      printf "--set specimen.passive.%s=[%g,%g,%g,%g] ", f[i], b * f[i + 1], b * f[i + 1], b * f[i + 1], b * f[i + 1]
-  }'
-}
 
 # draw SCRIPT.py ARGUMENT...: the page's own, or one that pages share. Debian's python3 is the one that has h5py and matplotlib.
 export PYTHONPATH=$page:$root/experiments/drawing:$root/experiments/results:$root/build/release/experiments/python

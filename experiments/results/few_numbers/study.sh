@@ -10,7 +10,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 for grid in numbers starts free; do "$hagfish" sweep "$grids/$grid.toml" --out "$out/$grid"; done
 {
   cat "$grids/animals.toml"
-  /usr/bin/python3 "$root/experiments/results/animals.py" 10 axis
+  /usr/bin/python3 "$root/experiments/results/animals.py" 10
 } >"$out/animals.toml"
 "$hagfish" sweep "$out/animals.toml" --out "$out/animals"
 

@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
 {
   cat "$grids/animal.toml"
-  /usr/bin/python3 "$root/experiments/results/animals.py" 10 axis
+  /usr/bin/python3 "$root/experiments/results/animals.py" 10
 } >"$out/animal.toml"
 
 # Programs at other times their speed, and when each ends, s.

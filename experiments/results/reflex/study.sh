@@ -13,7 +13,7 @@ for grid in knots meshes paper knockouts speed delay noise bodies step drag musc
 done
 {
   cat "$grids/animals.toml"
-  /usr/bin/python3 "$root/experiments/results/animals.py" 10 axis
+  /usr/bin/python3 "$root/experiments/results/animals.py" 10
 } >"$out/animals.toml"
 "$hagfish" sweep "$out/animals.toml" --out "$out/animals"
 

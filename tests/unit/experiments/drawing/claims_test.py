@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import claims
-from claim_row import outcome_of
+from claim_row import MEASURES, judged, outcome_of
 from conftest import KNOT, LAST_BODY, SPEED, STEP, STEPS, hinges_of
 from hagfish_log import LogError
 
@@ -155,3 +155,11 @@ def test_what_a_run_came_to(content, log):
     assert outcome_of(log()) == "not tight"
     content.data["trajectory/phase"][:] = 0
     assert outcome_of(log()) == "not tied"
+
+
+def test_a_slide_that_can_be_judged_has_its_measures_and_verdicts(content, log):
+    found = judged(log())
+    assert found.keys() == {"outcome", *MEASURES, *claims.NAMES} and found["outcome"] == "slid"
+    assert found["slide_cm"] == pytest.approx(5.9) and found["near_over_far"] == pytest.approx(1)
+    content.data["trajectory/phase"][content.slide[claims.LEAST_FRAMES]:] = 3
+    assert judged(log()) == {"outcome": "hardly slid"}

@@ -70,3 +70,12 @@ def test_a_table_of_another_version_is_refused(folder):
     (folder / "table.csv").write_text(HEADING.replace("kkt,", "") + "0\n")
     with pytest.raises(LogError, match="not a table of this version"):
         sweep_columns.read_sweep(folder / "table.csv")
+
+
+def test_a_cell_has_its_place_its_figures_and_its_log(folder):
+    gather.main(folder)
+    cells = list(sweep_columns.read_cells(folder))
+    assert [cell.axes["drag.normal"] for cell in cells] == ["1", "1", "1e2", "1e2"]
+    assert (cells[2].outcome, cells[2].unmet, cells[3].outcome) == ("ok", ["Eq. 6", "slide"], "never tied")
+    assert cells[1].figures["sliding_force_dyn"] == 30 and np.isnan(cells[2].figures["sliding_force_dyn"])
+    assert cells[3].path == folder / "logs/3.h5"

@@ -4,6 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
+import taken
 from hagfish_log import HagfishLog, LogError, Results
 from program import script
 
@@ -109,3 +110,16 @@ def test_a_script_says_which_dataset_is_missing_in_one_line(content, tmp_path, m
     done = script("drawing/figure8.py", path, *outputs)
     assert (done.returncode, done.stderr) == (2, f"figure8.py: {path}: no dataset /{missing}\n")
     assert not any(output.exists() for output in outputs)
+
+
+def steps_of(log):
+    return {"steps": len(log["/steps/kkt"])}
+
+
+def test_what_is_kept_of_logs_comes_in_the_order_of_their_numbers(content, tmp_path):
+    for name in ("10", "9"):
+        content.data["steps/kkt"] = np.zeros(int(name))
+        content.write(tmp_path / f"{name}.h5")
+    taken.main(f"{__name__}.steps_of", tmp_path)
+    assert taken.taken(tmp_path) == [{"steps": 9}, {"steps": 10}]
+    assert not list(tmp_path.glob("*.h5"))

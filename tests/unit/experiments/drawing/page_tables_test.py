@@ -17,6 +17,7 @@ import departures
 import design
 import films
 import knot_in_numbers
+import knots
 import leverage
 import living
 import reflex
@@ -132,6 +133,12 @@ def test_a_pull_is_told_over_time_and_by_what_may_move_it(tmp_path):
                      "of numbers of bodies, N": "2.50 to 8.00", "over the sum of the rows": "1.5", "over the largest torque, 1/cm": "0.75", "mirror image the same": "yes"}
     runs[3]["plate_N"] = "2"
     assert row()["mirror image the same"] == "no"
+
+
+def test_knots_are_counted_that_tie_hold_and_come_off():
+    run = lambda unmet, outcome="ok": sweep_columns.Cell({}, {"outcome": outcome, "unmet": unmet}, {}, None)
+    cells = [run(""), run("Eq. 6"), run("penetration"), run("knot held; unknot at end"), run("", "never tied")]
+    assert knots.sure(cells) == "3 of 5 (2 within the penetration)" and knots.sure(cells[:2]) == "2 of 2"
 
 
 def test_a_value_of_an_audit_is_that_of_its_criterion(tmp_path):
