@@ -1,4 +1,4 @@
-"""What the parts of a step cost, from `hagfish_benchmarks`: times as CSV, ratios to MuJoCo as the page's table.
+"""What the parts of a step cost, from `hagfish_benchmarks`: ratios to MuJoCo as the page's table.
 
 Usage: benchmarks.py BENCHMARKS.json OUT_FOLDER.
 """
@@ -38,51 +38,36 @@ def medians(benchmarks: list[dict[str, Any]]) -> tuple[Times, Quickest]:
     return times, quickest
 
 
-def write_times(times: Times, context: dict[str, Any], path: Path) -> None:
-    notes = [f"{key}: {context[key]}" for key in ("cpu", "compiler", "libraries", "revision", "date")]
-    tables.write_csv(path, ["simulator", "part", "bodies", "cpu_time_us"],
-                     [[simulator, part, bodies, f"{time:.4g}"] for (simulator, part), by_bodies in times.items()
-                      for bodies, time in by_bodies.items()], notes)
+STEP, FREE = "step_knotted_active-set:10", "step_free:10"
+# Row of the table, and of which parts of the core it is the ratio, or of what number of bodies, with its form.
+RATIOS = {"knotted step, over 100 bodies": (STEP, 100, ".2f"), "knotted step by the midpoint rule, over Euler's": ("step_midpoint:10", STEP, ".2f"),
+          "QP: Ipopt over active-set, both warm": ("qp_ipopt", "qp_active-set", ".0f"),
+          "Eqs. 1 and 4: nothing prescribed over as it is": ("prescribe_nothing", "prescribe_all", ".2f"),
+          "Eqs. 1 and 4: head alone prescribed": ("prescribe_head", "prescribe_all", ".2f"),
+          "step without contact, over 100 bodies": (FREE, 100, ".2f")}
+TIMES = {"knotted step, µs": STEP, "step without contact, µs": FREE, "contact alone, µs": "contact"}
 
 
 def ratios(times: Times, quickest: Quickest) -> list[list[str]]:
     """Rows of the table of ratios; the first one has the numbers of bodies."""
-    rows: list[list[str]] = []
-
-    def row(text: str, values: list[str]) -> None:
-        rows.append([text.strip(), *values])
-
-    bodies = sorted(times[("core", "step_free:10")])
-    row("bodies", [str(n) for n in bodies])
+    core, mujoco = ({part: of for (simulator, part), of in times.items() if simulator == name} for name in ("core", "mujoco"))
+    bodies = sorted(core[FREE])
+    over = lambda top, under, form=".1f": [f"{top[n] / under[n]:{form}}" for n in bodies]
+    rows = {"bodies": [str(n) for n in bodies]}
     for restart in RESTARTS:
-        mujoco, core = times[("mujoco", f"step_knotted:{restart}")], times[("core", f"step_knotted_active-set:{restart}")]
-        row(f"knotted step: MuJoCo over core, {restart} steps a start", [f"{mujoco[n] / core[n]:.1f}" for n in bodies])
-        row(f"  by, {restart} steps a start", [quickest[restart][n][0] for n in bodies])
-        row(f"  which is off by, {restart} steps a start", [f"{quickest[restart][n][1]:.0e}" for n in bodies])
-    free = times[("core", "step_free:10")]
-    row("step without contact: MuJoCo over core", [f"{times[('mujoco', 'step_free:10')][n] / free[n]:.1f}" for n in bodies])
-    knotted = times[("core", "step_knotted_active-set:10")]
-    row("knotted step, over 100 bodies", [f"{knotted[n] / knotted[100]:.2f}" for n in bodies])
-    midpoint = times[("core", "step_midpoint:10")]
-    row("knotted step by the midpoint rule, over Euler's", [f"{midpoint[n] / knotted[n]:.2f}" for n in bodies])
-    row("QP: Ipopt over active-set, both warm",
-        [f"{times[('core', 'qp_ipopt')][n] / times[('core', 'qp_active-set')][n]:.0f}" for n in bodies])
-    as_is = times[("core", "prescribe_all")]
-    for text, part in (("Eqs. 1 and 4: nothing prescribed over as it is", "prescribe_nothing"),
-                       ("Eqs. 1 and 4: head alone prescribed", "prescribe_head")):
-        row(text, [f"{times[('core', part)][n] / as_is[n]:.2f}" for n in bodies])
-    row("step without contact, over 100 bodies", [f"{free[n] / free[100]:.2f}" for n in bodies])
-    for text, part in (("knotted step, µs", "step_knotted_active-set:10"), ("step without contact, µs", "step_free:10"),
-                       ("contact alone, µs", "contact")):
-        row(text, [f"{times[('core', part)][n]:.3g}" for n in bodies])
-    return rows
+        steps = f"{restart} steps a start"
+        rows[f"knotted step: MuJoCo over core, {steps}"] = over(mujoco[f"step_knotted:{restart}"], core[f"step_knotted_active-set:{restart}"])
+        rows[f"by, {steps}"] = [quickest[restart][n][0] for n in bodies]
+        rows[f"which is off by, {steps}"] = [f"{quickest[restart][n][1]:.0e}" for n in bodies]
+    rows["step without contact: MuJoCo over core"] = over(mujoco[FREE], core[FREE])
+    for text, (top, under, form) in RATIOS.items():
+        rows[text] = over(core[top], core[under] if under in core else dict.fromkeys(bodies, core[top][under]), form)
+    rows |= {text: [f"{core[part][n]:.3g}" for n in bodies] for text, part in TIMES.items()}
+    return [[text, *cells] for text, cells in rows.items()]
 
 
 def main(benchmarks: Path, out: Path) -> None:
-    results = json.loads(benchmarks.read_text(encoding="utf-8"))
-    times, quickest = medians(results["benchmarks"])
-    write_times(times, results["context"], out / "benchmarks.csv")
-    head, *rows = ratios(times, quickest)
+    head, *rows = ratios(*medians(json.loads(benchmarks.read_text(encoding="utf-8"))["benchmarks"]))
     tables.write_table(out, "step_cost", head, rows)
 
 
