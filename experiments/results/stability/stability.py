@@ -1,10 +1,15 @@
 """The failure map: a heat map of outcomes for every stress scene, and the largest step that each method survives.
 
-Usage: stability.py STABILITY.csv OUT_FOLDER (SCENE.png, stability.png, each with a PDF beside, and summary.md)
+Usage: stability.py jobs      a line a cell of cells.toml: `cell SCENE LEVEL METHOD STEP SETTINGS`, large steps first, which are quick and show most
+       stability.py page STABILITY.csv OUT_FOLDER (SCENE.png and stability.png, each with a PDF beside, and tables)
 """
 
 import re
+import shlex
+import sys
+import tomllib
 from collections import Counter
+from itertools import product
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -116,6 +121,16 @@ def write_tables(cells: list[Cell], out: Path) -> None:
     write_table(out, "stability_starts", ["h, ms", "ok", "otherwise"], rows)
 
 
+def jobs() -> None:
+    known, found = tomllib.loads((Path(__file__).parent / "cells.toml").read_text(encoding="utf-8")), []
+    for of in known["cells"]:
+        for scene, level, method, step in product(of["scenes"].split(), of.get("levels", [AS_IS]), of["methods"].split(), known["steps"][of["steps"]]):
+            named, settings = (of.get(key, default).replace("{}", str(level)) for key, default in (("level", "{}"), ("set", "")))
+            found.append((step, ["cell", scene, named, method, str(step), settings]))
+    for _, words in sorted(found, key=lambda cell: -cell[0]):
+        print(shlex.join(words))
+
+
 def main(table: Path, out: Path) -> None:
     cells = read(table)
     for scene in scenes_of(cells):
@@ -128,4 +143,7 @@ def main(table: Path, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["STABILITY.csv", "OUT_FOLDER"], main)
+    if sys.argv[1:] == ["jobs"]:
+        jobs()
+    else:
+        run_script(__doc__, ["page", "STABILITY.csv", "OUT_FOLDER"], lambda _, table, out: main(table, out))
