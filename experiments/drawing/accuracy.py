@@ -12,6 +12,7 @@ from hagfish_log import HagfishLog
 
 PRESETS = Path(__file__).resolve().parents[2] / "data" / "presets.toml"
 KINDS = ("bend_y", "bend_z", "twist")
+Motion = dict[str, np.ndarray]  # by measure: places, cm, frames x points x 3, or forces, whose difference is a share
 STATIONS = np.linspace(0.01, 0.99, 99)  # along the body, at which moments of two meshes are compared
 
 
@@ -41,6 +42,21 @@ def places_of(log: HagfishLog, frames: np.ndarray) -> np.ndarray:
 def off(found: np.ndarray, wanted: np.ndarray) -> float:
     """How far one is from the other, % of that."""
     return float(100 * np.linalg.norm(found - wanted) / np.linalg.norm(wanted))
+
+
+def beyond(coarse: Motion, fine: Motion, share: float = 1) -> Motion:
+    """Past the fine one, by a share of what the two differ."""
+    return {name: fine[name] + share * (fine[name] - coarse[name]) for name in fine}
+
+
+def distance(found: np.ndarray, wanted: np.ndarray) -> float:
+    """Root mean square of points' distances."""
+    return float(np.sqrt(((found - wanted) ** 2).sum(axis=2).mean()))
+
+
+def apart(found: Motion, wanted: Motion, of: str = "") -> dict[str, float]:
+    """How far one motion is from another, measure by measure: of f_thigmo only where there is any."""
+    return {of + name: (distance if name.endswith("_cm") else off)(found[name], wanted[name]) for name in wanted if wanted[name].any()}
 
 
 def shown(value: float | None, form: str = ".0f") -> str:

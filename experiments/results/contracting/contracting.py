@@ -11,7 +11,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import cpu_of, handles_of, mark_presets, moments_of, name_of, off, pareto, pick, places_of, presets, shown
+from accuracy import Motion, apart, beyond, cpu_of, distance, handles_of, mark_presets, moments_of, name_of, pareto, pick, places_of, presets, shown
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -36,7 +36,6 @@ HEAD = ["law", "simulator", "contact_ms", "rule", "bodies", "step_ms", "cpu_s", 
         *(f"by_step_{name}" for name in MEASURES), "off_here_cm"]
 
 Rows = list[dict[str, Any]]
-Motion = dict[str, np.ndarray]
 
 
 def unit(measure: str) -> str:
@@ -56,21 +55,6 @@ def motion(log: HagfishLog, law: str) -> Motion:
     of = lambda name: moments_of(log, name, frames)
     return dict(zip(MEASURES, [log["/knot/head_end"][frames][:, None, None], places_of(log, frames), of("active"),
                                long_means(of("thigmotaxis"), LONG)]))
-
-
-def beyond(coarse: Motion, fine: Motion, share: float = 1) -> Motion:
-    """Past the fine one, by a share of what the two differ."""
-    return {name: fine[name] + share * (fine[name] - coarse[name]) for name in fine}
-
-
-def distance(found: np.ndarray, wanted: np.ndarray) -> float:
-    """Root mean square of points' distances."""
-    return float(np.sqrt(((found - wanted) ** 2).sum(axis=2).mean()))
-
-
-def apart(found: Motion, wanted: Motion, of: str = "") -> dict[str, float]:
-    """f_thigmo only where there is any."""
-    return {of + name: (distance if unit(name) == "cm" else off)(found[name], wanted[name]) for name in wanted if wanted[name].any()}
 
 
 def read_runs(folder: Path) -> list[tuple[dict[str, Any], Motion | None]]:

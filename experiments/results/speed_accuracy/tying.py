@@ -4,15 +4,13 @@ back ends. Tables and a chart.
 Usage: tying.py RUNS OUT_FOLDER (writes speed_accuracy.png and a PDF beside). RUNS is what study.sh leaves.
 """
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Self
 
 import numpy as np
 
 import plots
 import tables
-from accuracy import cpu_of, handles_of, mark_presets, moments_of, name_of, off, pick, places_of, presets
+from accuracy import Motion, apart, beyond, cpu_of, handles_of, mark_presets, moments_of, name_of, pick, places_of, presets
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -29,28 +27,13 @@ HEAD = ["knot", "rule", "back_end", "bodies", "step_ms", "cpu_s", *MEASURES, "pl
 Rows = list[dict[str, object]]
 
 
-@dataclass
-class Motion:
-    """At the frames from FROM on: places at STATIONS (frames x 99 x 3, cm) and the muscles' moments there (dyn cm)."""
-
-    place: np.ndarray
-    torque: np.ndarray
-
-    def towards(self, other: Self, share: float) -> Self:
-        return Motion(self.place + share * (other.place - self.place), self.torque + share * (other.torque - self.torque))
-
-    def errors(self, wanted: Self) -> tuple[float, float]:
-        """Root mean square of places, cm; of moments, %."""
-        return float(np.sqrt(((self.place - wanted.place) ** 2).sum(axis=2).mean())), off(self.torque, wanted.torque)
-
-
 def read_motion(path: Path) -> Motion | None:
-    """Nothing of a run that ended early."""
+    """At the frames from FROM on: places at STATIONS and the muscles' moments there. Nothing of a run that ended early."""
     log = HagfishLog(path)
     if log.attribute("status") != "complete":
         return None
     frames = np.flatnonzero(log["/trajectory/time"] > FROM)
-    return Motion(places_of(log, frames), moments_of(log, "active", frames))
+    return dict(zip(MEASURES, [places_of(log, frames), moments_of(log, "active", frames)]))
 
 
 def read_runs(folder: Path, knot: str) -> Rows:
@@ -66,13 +49,13 @@ def read_runs(folder: Path, knot: str) -> Rows:
         fine, coarse = (runs["euler", "active-set", bodies, step][1] for step in (least, more))
         if fine is None or coarse is None or not np.isclose(2 * least, more):
             raise LogError(f"{folder}: {knot}, {bodies} bodies: the two smallest steps cannot be extrapolated")
-        still[bodies] = fine.towards(coarse, -1)
+        still[bodies] = beyond(coarse, fine)
     middle, fine = sorted(still)[-2:]
-    limit = still[fine].towards(still[middle], -1 / 3)
-    rows = [dict(zip(HEAD, [KNOTS[knot], "euler", "active-set", bodies, 0.0, "", *moved.errors(limit), 0.0])) for bodies,
+    limit = beyond(still[middle], still[fine], 1 / 3)
+    rows = [dict(zip(HEAD, [KNOTS[knot], "euler", "active-set", bodies, 0.0, "", *apart(moved, limit).values(), 0.0])) for bodies,
             moved in still.items()]
     for (rule, back_end, bodies, step), (cpu, own) in sorted(runs.items()):
-        errors = (*own.errors(limit), own.errors(still[bodies])[0]) if own else ("", "", "")
+        errors = [*apart(own, limit).values(), apart(own, still[bodies])["place_cm"]] if own else [""] * 3
         rows.append(dict(zip(HEAD, [KNOTS[knot], rule, back_end, bodies, step, cpu, *errors])))
     return rows
 

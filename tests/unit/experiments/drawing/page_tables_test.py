@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 import pytest
 
+import accuracy
 import audits
 import benchmarks
 import claim_map
@@ -213,9 +214,9 @@ def test_errors_while_tying(tmp_path):
 
 
 def test_a_motion_is_off_by_what_it_is_moved():
-    at = lambda x: tying.Motion(np.full((2, 3, 3), [x, 0, 0]), np.full((2, 9), 1 + x))
-    assert at(0.1).errors(at(0.0)) == pytest.approx((0.1, 10))
-    assert at(0.1).towards(at(0.2), -1).errors(at(0.0)) == pytest.approx((0, 0), abs=1e-12)
+    at = lambda x: {"place_cm": np.full((2, 3, 3), [x, 0, 0]), "torque_percent": np.full((2, 9), 1 + x), "force_percent": np.zeros(3)}
+    assert accuracy.apart(at(0.1), at(0.0)) == pytest.approx({"place_cm": 0.1, "torque_percent": 10})
+    assert accuracy.apart(accuracy.beyond(at(0.2), at(0.1)), at(0.0)) == pytest.approx({"place_cm": 0, "torque_percent": 0}, abs=1e-12)
 
 
 def test_one_animal_in_two_simulators(tmp_path):
