@@ -19,6 +19,11 @@ class Table:
     notes: list[str] = field(default_factory=list)
 
 
+def short(value: float, form: str = ".3g") -> str:
+    """In a format, without the nought of an exponent."""
+    return f"{value:{form}}".replace("e+0", "e")
+
+
 def span(values: Iterable[float], form: str) -> str:
     """The least to the largest of those that are numbers, in a format; the one where they read alike, nothing of none."""
     known = [value for value in values if not math.isnan(value)]

@@ -97,7 +97,7 @@ def read_study(folder: Path) -> tuple[list[Row], list[str]]:
 
 
 def number(text: str, digits: int = 3) -> str:
-    return f"{float(text):.{digits}g}".replace("e+0", "e") if text else "-"
+    return tables.short(float(text), f".{digits}g") if text else "-"
 
 
 def passed(row: Row, law: str) -> str:

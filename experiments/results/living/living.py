@@ -114,15 +114,12 @@ def sweep_rows(sweeps: dict[str, dict[str, list[tuple[float, Run]]]]) -> list[li
     return rows
 
 
-def short(value: float) -> str:
-    return f"{value:.1e}".replace("e+0", "e")
-
-
 def main_table(folder: Path) -> None:
     off = lambda runs: [run for run in runs if run.outcome == "off"]
     held, free = ([run for run, in runs_of(folder / name)] for name in ("held", "free"))
     animals = list(map(off, runs_of(folder / "animal")))
     programs = [cell.log.scene()["script"]["curvature"] for cell in read_cells(folder / "held")]
+    large = lambda value: tables.short(value, ".1e")
     slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"
     share = lambda runs: f"{len(off(runs))}; {np.nanmin([run.share for run in runs]):.0f}"
     met = [[100 * run.met for run in runs if np.isfinite(run.met)] for runs in animals]
@@ -130,8 +127,8 @@ def main_table(folder: Path) -> None:
         ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %", *map(slid, held)],
         ["free, no plate: the same", *map(slid, free)],
         ["deepest penetration at any step, release included, cm", *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
-        ["sum of λ/h of all rows while sliding, clamped, median, dyn", *(short(run.force) for run in held)],
-        ["largest torque of a hinge, forming; sliding, dyn cm", *(f"{short(run.torque['form'])}; {short(run.torque['slide'])}" for run in held)],
+        ["sum of λ/h of all rows while sliding, clamped, median, dyn", *(large(run.force) for run in held)],
+        ["largest torque of a hinge, forming; sliding, dyn cm", *(f"{large(run.torque['form'])}; {large(run.torque['slide'])}" for run in held)],
         ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}" for each in programs)],
         ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; least share, %",
          *map(share, runs_of(folder / "heldstart"))],

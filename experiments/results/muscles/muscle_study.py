@@ -105,7 +105,7 @@ def stiffness(folder: Path) -> None:
     plots.save(figure, folder / "muscles_stiffness.png")
     tables.write_table(folder, "muscles_stiffness", ["EI, dyn cm²: peak activation; frames in which a muscle is too weak, %",
                                                      *plots.SCENES.values()],
-                       [[f"{value:.0e}".replace("e+0", "e"), *cells] for value, cells in sorted(rows.items())])
+                       [[tables.short(value, ".0e"), *cells] for value, cells in sorted(rows.items())])
 
 
 def main(folder: Path) -> None:

@@ -54,7 +54,7 @@ def last(values: list[float], holds: Callable[[float], bool]) -> str:
     for value in values:
         if not holds(value):
             return found
-        found = (f"{value:.0e}" if value >= 1e5 else f"{value:g}").replace("e+0", "e")
+        found = tables.short(value, ".0e" if value >= 1e5 else "g")
     return f"all ({found})"
 
 

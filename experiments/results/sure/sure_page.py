@@ -17,23 +17,18 @@ SHOWN = {"slide_distance_cm": "slide, cm", "sliding_force_dyn": "sliding force, 
          "largest_thigmotaxis_dyn_cm": "largest f_thigmo, dyn cm",
          "largest_active_dyn_cm": "largest torque of muscles, dyn cm", "work_active_erg": "work of muscles, erg",
          "work_thigmotaxis_erg": "work of f_thigmo, erg"}
-ROUND = 3  # digits
-
-
-def shown(value: float) -> str:
-    return f"{value:.{ROUND}g}".replace("e+0", "e")
 
 
 def interval(spread: sure.Spread) -> str:
     if np.isnan(spread.least):
         return "-"
-    ends = shown(spread.least), shown(spread.most)
+    ends = tables.short(spread.least), tables.short(spread.most)
     return ends[0] if ends[0] == ends[1] else " to ".join(ends)
 
 
 def rows(scene: str, found: sure.Sure) -> list[list[str]]:
     counted = f"{int(found.counted.sum())} of {len(found.causes)}"
-    return [[f"{scene}: {SHOWN[name]}", shown(values[0]), *map(interval, found.spreads(values)), counted]
+    return [[f"{scene}: {SHOWN[name]}", tables.short(values[0]), *map(interval, found.spreads(values)), counted]
             for name, values in found.of_the_animal() if name in SHOWN]
 
 
