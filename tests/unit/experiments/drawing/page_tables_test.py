@@ -214,7 +214,7 @@ def test_errors_while_tying(tmp_path):
 
 
 def test_a_motion_is_off_by_what_it_is_moved():
-    at = lambda x: {"place_cm": np.full((2, 3, 3), [x, 0, 0]), "torque_percent": np.full((2, 9), 1 + x), "force_percent": np.zeros(3)}
+    at = lambda x: {"place_cm": np.full((2, 3, 3), [1 + x, 0, 0]), "torque_percent": np.full((2, 9), 1 + x), "force_percent": np.zeros(3)}
     assert accuracy.apart(at(0.1), at(0.0)) == pytest.approx({"place_cm": 0.1, "torque_percent": 10})
     assert accuracy.apart(accuracy.beyond(at(0.2), at(0.1)), at(0.0)) == pytest.approx({"place_cm": 0, "torque_percent": 0}, abs=1e-12)
 
