@@ -4,6 +4,7 @@ Means are over the settled part of the phase `pull`: from expect.pull_settled af
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -160,3 +161,8 @@ def read_strand(log: HagfishLog) -> Strand:
                   np.linalg.norm(contact, axis=2).mean(axis=0) / NEWTON,
                   (thigmotaxis * tangent).sum(axis=2).mean(axis=0) / NEWTON, plate[:, :, 0].mean(axis=0) / NEWTON,
                   {"rows": along(thigmotaxis), "contacts": along(contact), "plate": along(plate)})
+
+
+def open_pull(path: Path) -> Pull:
+    """For scripts of readers' own (docs/tutorials/known_force.md)."""
+    return read_pull(HagfishLog(path))
