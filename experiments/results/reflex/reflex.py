@@ -70,12 +70,6 @@ def came(row: Row | None) -> str:
     return f"{row.way:.1f} in {row.time:.1f} s" if row.slid == "yes" else f"lost at {row.way:.1f}" if row.held == "no" else f"{row.way:.1f}"
 
 
-def span(values: Iterable[float | None], form: Callable[[float], str] = lambda v: figure_of(v, 2)) -> str:
-    known = [value for value in values if value is not None and not np.isnan(value)]
-    least, most = form(min(known)), form(max(known))
-    return least if least == most else f"{least} to {most}"
-
-
 def knots_table(rows: list[Row]) -> Cells:
     body = []
     for knot, head in CASES:
@@ -229,11 +223,10 @@ def figures_table(rows: list[Row]) -> Cells:
     tied = lambda *studies: [row for study in studies for row in pick(rows, study=study) if row.way is not None]
     shuffled = [row for row in pick(rows, study="laws") if row.setting.startswith("shuffled")]
     free = [row.speed / law_speed(SHIFT) for row in usual if row.head == "free"]
-    nothing = [row.way for row in pick(rows, study="knockouts", setting="nothing copied")]
+    nothing = [row.way for row in pick(rows, study="knockouts", setting="nothing copied") if row.way is not None]
     soft = soft_pairs(rows)
     lost = [own for own, other in soft if other.held == "no"]
     there = [(beside(rows, row), row) for row in pick(rows, study="mujoco")]
-    two, one_digit = (lambda value: f"{value:.2f}"), (lambda value: f"{value:.1f}")
 
     def off(key: str, setting: str, base: str = USUAL, **of: str) -> float:
         """The most by which runs of a setting differ from those of another, %."""
@@ -243,7 +236,7 @@ def figures_table(rows: list[Row]) -> Cells:
 
     def ratios(key: str, wanted: Callable[[str], bool]) -> str:
         pairs = [(getattr(own, key), getattr(row, key)) for own, row in there if own and wanted(row.setting)]
-        return span([own / other for own, other in pairs if own and other], two)
+        return tables.span([own / other for own, other in pairs if own and other], ".2f")
 
     def curved(knot: str) -> str:
         middles = [row.middle for setting in ("100", "200")
@@ -255,14 +248,14 @@ def figures_table(rows: list[Row]) -> Cells:
         ("knots", USUAL), ("mujoco", "from the slide")))
     steps = max(off(key, *settings) for key in ("time", "middle") for settings in ((FINE_STEP,), (FINEST, FINE_MESH)))
     return ["figure", "value"], [["runs that slid", slid_of(usual)],
-        ["effort, of that of Eq. 6", span(efforts, two)],
-        ["times at two steps differ by at most, %", one_digit(steps)],
+        ["effort, of that of Eq. 6", tables.span(efforts, ".2f")],
+        ["times at two steps differ by at most, %", f"{steps:.1f}"],
         ["skins touch within, cm", f"{skin.TOUCHING:g}"],
         *([f"arcs of the middle, {knot}, cm", f"{first:g} to {last:g}"] for knot, (first, last) in reflex_runs.MIDDLE.items()),
-        *([f"meshes differ, {head}, %", one_digit(off("middle", FINE_MESH, head=head))] for head in ("free", "clamped")),
+        *([f"meshes differ, {head}, %", f"{off('middle', FINE_MESH, head=head):.1f}"] for head in ("free", "clamped")),
         *([f"meshes by a parabola, {knot}, %", curved(knot)] for knot in KNOTS if pick(rows, study="curves", knot=knot)),
-        ["speed of a free head, of the law's", span(free, two)],
-        ["way where nothing is copied, cm", span(nothing, one_digit)],
+        ["speed of a free head, of the law's", tables.span(free, ".2f")],
+        ["way where nothing is copied, cm", tables.span(nothing, ".1f")],
         ["shuffled neighbours that lose the knot", f"{len(pick(shuffled, held='no'))} of {len(shuffled)}"],
         ["runs by rate that came to the head", slid_of(rate)],
         ["leap of a shape held for a second, cm", figure_of(law_speed(SHIFT), 2)],
@@ -278,7 +271,7 @@ def figures_table(rows: list[Row]) -> Cells:
         ["MuJoCo with drag, middle", ratios("middle", with_drag)],
         ["MuJoCo without drag", ratios("time", lambda setting: setting == "no drag")],
         ["MuJoCo without it, fine mesh", ratios("time", lambda setting: "200 bodies" in setting)],
-        ["5_2 here with a head plate, of MuJoCo's time", two(plate.time / no_plate.time)]]
+        ["5_2 here with a head plate, of MuJoCo's time", f"{plate.time / no_plate.time:.2f}"]]
 
 
 TABLES: dict[str, Callable[[list[Row]], Cells]] = {
