@@ -35,10 +35,7 @@ def claim_of(log: HagfishLog) -> Claim:
 
 def groups(runs: list[Claim]) -> dict[tuple[str, str], list[Claim]]:
     """By reading and change, in the order of the grid."""
-    found: dict[tuple[str, str], list[Claim]] = {}
-    for run in runs:
-        found.setdefault((run["reading"], run["change"]), []).append(run)
-    return found
+    return tables.grouped(runs, lambda run: (run["reading"], run["change"]))
 
 
 def slid(runs: list[Claim]) -> list[Claim]:

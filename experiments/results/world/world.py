@@ -36,11 +36,8 @@ def holes(folder: Path) -> None:
 
 def waves(folder: Path) -> None:
     """A row a wave, of runs that start at other phases of it."""
-    found: dict[tuple[str, ...], list[dict[str, Any]]] = {}
-    for run in taken(folder / "wave_runs" / "logs"):
-        found.setdefault(tuple(run["wave"]), []).append(run)
     rows = []
-    for wave, runs in found.items():
+    for wave, runs in tables.grouped(taken(folder / "wave_runs" / "logs"), lambda run: tuple(run["wave"])).items():
         means, peaks, over = (np.array([run[name] for run in runs]) for name in ("mean", "peak", "over"))
         strength = runs[0]["strength"]
         rows.append([*wave, f"{len(runs)}", f"{means.min():.2g} to {means.max():.2g}", f"{peaks.min():.2g} to {peaks.max():.2g}",
@@ -53,14 +50,14 @@ def waves(folder: Path) -> None:
 
 def hole_map(folder: Path) -> None:
     """A row a change, a column a knot and law: the median of its starts, their least and most; "not tied" counts as no pull."""
-    found: dict[str, dict[tuple[str, str], list[float]]] = {}
-    for run in [*taken(folder / "hole_map" / "logs"), *taken(folder / "hole_widths" / "logs")]:
-        changed = (f"hole {run['width']:.2g} cm, {run['plate']}; girth {run['girth']:.2g} cm; "
-                   f"muscles {run['stiffness']:.1e} dyn cm^2").replace("e+0", "e")
-        found.setdefault(changed, {}).setdefault(knot_and_law(run), []).append(run["pull"])
-    columns = list(dict.fromkeys(key for cell in found.values() for key in cell))
+    changed = lambda run: (f"hole {run['width']:.2g} cm, {run['plate']}; girth {run['girth']:.2g} cm; "
+                           f"muscles {run['stiffness']:.1e} dyn cm^2").replace("e+0", "e")
+    runs = [*taken(folder / "hole_map" / "logs"), *taken(folder / "hole_widths" / "logs")]
+    columns = list(tables.grouped(runs, knot_and_law))
+    cells = tables.grouped(runs, lambda run: (changed(run), knot_and_law(run)))
+    pulls = lambda change, key: [run["pull"] for run in cells.get((change, key), [])]
     tables.write_table(folder, "world_map", ["changed", *(f"{knot}, {law}" for knot, law in columns)],
-                       [[changed, *(pulled(cell.get(key, [])) for key in columns)] for changed, cell in found.items()])
+                       [[change, *(pulled(pulls(change, key)) for key in columns)] for change in tables.grouped(runs, changed)])
 
 
 def pulled(starts: list[float]) -> str:
@@ -69,12 +66,9 @@ def pulled(starts: list[float]) -> str:
 
 def chance(folder: Path) -> None:
     """Pulls of the map's first row from other starts."""
-    pulls: dict[tuple[str, str], list[float]] = {}
-    for run in taken(folder / "hole_chance" / "logs"):
-        pulls.setdefault(knot_and_law(run), []).append(run["pull"])
     rows = []
-    for (knot, law), of in pulls.items():
-        tied = [pull for pull in of if pull > 0]
+    for (knot, law), of in tables.grouped(taken(folder / "hole_chance" / "logs"), knot_and_law).items():
+        tied = [run["pull"] for run in of if run["pull"] > 0]
         rows.append([knot, law, f"{len(tied)} of {len(of)}", *(f"{value:.2f}" for value in (min(tied), np.median(tied), max(tied)))])
     tables.write_table(folder, "world_chance", ["knot", "law", "tied", "lowest, N", "median, N", "highest, N"], rows)
 
