@@ -51,7 +51,7 @@ const model = mujoco.MjModel.from_xml_path(`${folder}/hagfish.xml`), data = new 
 model.opt.timestep = STEP;
 const begin = (state) => { mujoco.mj_resetData(model, data); data.qpos.set(state.qpos); };
 const advance = () => { for (let k = 0; k < STEPS; ++k) mujoco.mj_step(model, data); };
-const SOLVERS = ["PGS", "CG", "Newton"], INTEGRATORS = { Euler: 0, implicitfast: 3 };
+const SOLVERS = ["PGS", "CG", "Newton"], INTEGRATORS = { Euler: 0, implicitfast: 3, discrete: 4 };
 for (const [integrator, number] of Object.entries(INTEGRATORS)) {
   model.opt.integrator = number;
   model.opt.solver = 2;

@@ -24,10 +24,10 @@ LEGEND_COLUMNS, LEGEND_ROWS = 5, 2
 CELL, LETTER = 0.3, 0.075  # inches, of a cell's side and of a label's letter
 # Without the watch beside MuJoCo, which has none.
 METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "no_watch", "midpoint", "mujoco_euler",
-           "mujoco_implicit", "mujoco_rk4"]
+           "mujoco_hard", "mujoco_implicit", "mujoco_rk4"]
 TITLES = {"no_watch": "Euler, no watch", "midpoint": "midpoint, no watch", "baumgarte_0.2": "Baumgarte 0.2",
           "baumgarte_1": "Baumgarte 1", "hard_thigmotaxis": "hard Eq. 6",
-          "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_implicit": "MuJoCo implicit",
+          "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_hard": "MuJoCo Euler, stiff", "mujoco_implicit": "MuJoCo implicit",
           "mujoco_rk4": "MuJoCo RK4"}
 SCENES = {"whip": "fast undamped whip", "spinning": "spin near 90°", "coil": "coil from its limits",
           "stiff_joints": "stiff joints", "mass_ratio": "mass ratio", "stiff_tip": "stiff tip spring",

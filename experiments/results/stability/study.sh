@@ -40,7 +40,7 @@ export -f cell
 steps="0.2 0.5 1 2 5 10 20 50" # ms
 coarse="1 2 5 10 20 50"        # where a step is slow
 few="1 5 20"                   # of level sweeps
-mujoco="mujoco_euler mujoco_implicit mujoco_rk4"
+mujoco="mujoco_euler mujoco_hard mujoco_implicit mujoco_rk4"
 rows="default no_watch midpoint violated baumgarte_0.2 baumgarte_1"
 
 # line SCENE LEVEL STEPS METHODS [SETTINGS]
@@ -69,7 +69,7 @@ list() {
     line $scene "as is" "$coarse" ipopt
   done
   line short_bodies "as is" "$steps" "$rows"
-  line short_bodies "as is" "$coarse" "ipopt mujoco_euler mujoco_implicit"
+  line short_bodies "as is" "$coarse" "ipopt mujoco_euler mujoco_hard mujoco_implicit"
   line contradictory "as is" "$steps" "$rows"
   line contradictory "as is" "$coarse" ipopt
   line knot_into_head "as is" "$steps" "$rows hard_thigmotaxis"
