@@ -1,5 +1,6 @@
 #include "mujoco_ref/mirror.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "core/step/outcome.hpp"
@@ -30,6 +31,21 @@ void use_core_rule(MujocoModel& mirror) {
     if (m.jnt_type[j] == mjJNT_HINGE) {
       m.dof_damping[m.jnt_dofadr[j]] += m.opt.timestep * m.jnt_stiffness[j];
     }
+  }
+}
+
+void set_stiffness(double constant, double share, mjModel& mirror) {
+  const auto set = [&](mjtNum* solref, mjtNum* solimp) {
+    solref[0] = constant;
+    solimp[0] = share;
+    solimp[1] = std::max(share, solimp[1]);
+  };
+  for (int g = 0; g < mirror.ngeom; ++g) {
+    mirror.geom_margin[g] = 0;
+    set(mirror.geom_solref + mjNREF * g, mirror.geom_solimp + mjNIMP * g);
+  }
+  for (int j = 0; j < mirror.njnt; ++j) {
+    set(mirror.jnt_solref + mjNREF * j, mirror.jnt_solimp + mjNIMP * j);
   }
 }
 

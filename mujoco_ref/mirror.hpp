@@ -24,6 +24,11 @@ State state_of(const Model& model, const MujocoModel& mirror);
 /// M + h (D + h K) is the core's H without drag. Once per model.
 void use_core_rule(MujocoModel& mirror);
 
+/// Sets how contacts and limits give way: the time constant `constant` (s, solref) in which they
+/// come back, of which MuJoCo allows no less than two steps, and the share of a violation's
+/// acceleration that they take (solimp). Contacts begin where skins touch (margin 0).
+void set_stiffness(double constant, double share, mjModel& mirror);
+
 /// Throws StepError where MuJoCo found a state bad since its data were made or reset: it sets such
 /// a state back to the initial one and goes on.
 void check_stable(const MujocoModel& mirror);

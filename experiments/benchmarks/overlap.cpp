@@ -77,20 +77,6 @@ Seen run_core(const ResolvedScene& resolved, double h) {
   return seen;
 }
 
-void set_stiffness(double constant, double share, mjModel& mujoco) {
-  for (int g = 0; g < mujoco.ngeom; ++g) {
-    mujoco.geom_margin[g] = 0;
-    mujoco.geom_solref[mjNREF * g] = constant;
-    mujoco.geom_solimp[mjNIMP * g] = share;
-    mujoco.geom_solimp[mjNIMP * g + 1] = std::max(share, mujoco.geom_solimp[mjNIMP * g + 1]);
-  }
-  for (int j = 0; j < mujoco.njnt; ++j) {
-    mujoco.jnt_solref[mjNREF * j] = constant;
-    mujoco.jnt_solimp[mjNIMP * j] = share;
-    mujoco.jnt_solimp[mjNIMP * j + 1] = std::max(share, mujoco.jnt_solimp[mjNIMP * j + 1]);
-  }
-}
-
 Seen run_mujoco(const ResolvedScene& resolved, double h, double constant, double share) {
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);

@@ -25,9 +25,10 @@ struct StressMethod {
   int integrator;                      ///< MuJoCo's, or core_stepper
   const char* qp;                      ///< back end of the core
   std::array<const char*, 2> changes;  ///< KEY=VALUE of the scene; none where empty
+  bool hard = false;                   ///< MuJoCo's contacts and limits as stiff as it allows
 };
 constexpr const char* unwatched = "guard.energy_action=warn";
-constexpr std::array<StressMethod, 11> stress_rules{
+constexpr std::array<StressMethod, 12> stress_rules{
     {{"default", core_stepper, active_set, {"", ""}},
      {"no_watch", core_stepper, active_set, {unwatched, ""}},
      {"midpoint", core_stepper, active_set, {"time.rule=midpoint", ""}},
@@ -37,6 +38,7 @@ constexpr std::array<StressMethod, 11> stress_rules{
      {"hard_thigmotaxis", core_stepper, active_set, {"controller.cap=1e9", ""}},
      {"ipopt", core_stepper, "ipopt", {"", ""}},
      {"mujoco_euler", mjINT_EULER, "", {"", ""}},
+     {"mujoco_hard", mjINT_EULER, "", {"", ""}, true},
      {"mujoco_implicit", mjINT_IMPLICIT, "", {"", ""}},
      {"mujoco_rk4", mjINT_RK4, "", {"", ""}}}};
 
@@ -87,7 +89,7 @@ Status run_cell(const Model& model, const Scene& scene, const StressMethod& meth
   try {
     const bool done = core ? run_in_core(model, scene, method.qp, out_of_time, judge)
                            : run_in_mujoco(model, scene, start_state(model, scene.start),
-                                           method.integrator, out_of_time, judge);
+                                           method.integrator, method.hard, out_of_time, judge);
     return done ? judge.ended()
                 : Status{Outcome::capped, fmt::format("not done in {:g} s of CPU", cpu_limit)};
   } catch (const StepError& error) {

@@ -10,6 +10,11 @@
 namespace hagfish {
 namespace {
 
+// As stiff as MuJoCo's contacts and limits can be: it makes less than two steps two, and 0.99 is
+// near the most that solimp may have (0.9999), from which on its solvers need more iterations.
+constexpr double hard_constant = 2;  // steps
+constexpr double hard_share = 0.99;
+
 /// The drag and the force `tip` (dyn, world) on the last body as a generalised force (nv).
 Eigen::VectorXd applied_force(const Model& model, const State& state, const Kinematics& kin,
                               const Eigen::Vector3d& tip) {
@@ -58,11 +63,12 @@ double mechanical_energy(const Model& model, const State& state, const Kinematic
 }
 
 bool run_in_mujoco(const Model& model, const Scene& scene, const State& start, int integrator,
-                   const std::function<bool()>& out_of_time, StressJudge& judge) {
+                   bool hard, const std::function<bool()>& out_of_time, StressJudge& judge) {
   const double h = scene.time.step;
   const Head head = scene.clamp_head ? Head::clamped : Head::free;
   MujocoModel mirror(mjcf_files(model, scene.contact.least_arc, h, head));
   mirror.model()->opt.integrator = integrator;
+  if (hard) set_stiffness(hard_constant * h, hard_share, *mirror.model());
   set_state(model, start, mirror);
   State state = state_of(model, mirror);
   ContactSearch search;

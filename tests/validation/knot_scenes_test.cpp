@@ -191,13 +191,14 @@ double head_end_at_slide(const std::string& h) {
   return knot_span(sim.controller)->head_end;
 }
 
-// By Euler's rule three of these make 1 to 10 % of their energy as they come off. Here it is less
-// than 2 %. The 5_2, whose muscles are too weak for it, makes 3 % and is left out.
+// Over nine starts the overhand makes 0.6 to 3 % of its energy as it comes off, the other two less
+// than 1 %. By Euler's rule the overhand makes over 10 %. The bound is that of the worst start and a
+// third, since the motion is chaotic and differs between processors.
 TEST(KnotScenesByTheMidpointRule, StiffBodiesLetGoWithoutEnergyOfTheirOwn) {
   for (const char* scene : {"living_overhand", "living_figure_eight", "living_double_overhand"}) {
     SCOPED_TRACE(scene);
     const ResolvedScene resolved = scene_called(
-        scene, {"time.rule=midpoint", "active.stiffness=4e5", "guard.energy_gain=0.02"});
+        scene, {"time.rule=midpoint", "active.stiffness=4e5", "guard.energy_gain=0.04"});
     const Model model = make_hagfish(resolved.specimen, resolved.scene);
     Simulation sim = start(model, resolved.scene, "active-set");
     StepRecord record;

@@ -46,7 +46,7 @@ const { mujoco, model, data } = await opened(library, mjcf);
 model.opt.timestep = STEP;
 const begin = (state) => { mujoco.mj_resetData(model, data); data.qpos.set(state.qpos); };
 const advance = () => { for (let k = 0; k < STEPS; ++k) mujoco.mj_step(model, data); };
-const SOLVERS = ["PGS", "CG", "Newton"], INTEGRATORS = { Euler: 0, implicitfast: 3 };
+const SOLVERS = ["PGS", "CG", "Newton"], INTEGRATORS = { Euler: 0, implicitfast: 3, discrete: 4 };
 for (const [integrator, number] of Object.entries(INTEGRATORS)) {
   model.opt.integrator = number;
   model.opt.solver = 2;

@@ -24,10 +24,11 @@ from tables import read_csv, write_table
 CELL = 0.3  # inches, of a cell's side
 # Without the watch beside MuJoCo, which has none.
 METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "no_watch", "midpoint", "mujoco_euler",
-           "mujoco_implicit", "mujoco_rk4"]
+           "mujoco_hard", "mujoco_implicit", "mujoco_rk4"]
 TITLES = {"no_watch": "Euler, no watch", "midpoint": "midpoint, no watch", "baumgarte_0.2": "Baumgarte 0.2",
           "baumgarte_1": "Baumgarte 1", "hard_thigmotaxis": "hard Eq. 6",
-          "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_implicit": "MuJoCo implicit", "mujoco_rk4": "MuJoCo RK4"}
+          "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_hard": "MuJoCo Euler, stiff", "mujoco_implicit": "MuJoCo implicit",
+          "mujoco_rk4": "MuJoCo RK4"}
 SCENES = {"whip": "fast undamped whip", "spinning": "spin near 90°", "coil": "coil from its limits",
           "stiff_joints": "stiff joints", "mass_ratio": "mass ratio", "stiff_tip": "stiff tip spring",
           "tight_limits": "tight limits", "redundant": "redundant rows", "contradictory": "contradictory rows",

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The failure map: stress scenes (scenes/*.toml, and the Table 1 run) over time steps, methods and levels of stress (cells.toml). Leaves stability.csv, a heat map per scene, and stability.png: the largest step that
-# each method survives; and how far the reflex goes.
+# The failure map: stress scenes (scenes/*.toml, and the Table 1 run) over time steps, methods and levels of stress
+# (cells.toml). Leaves stability.csv, a heat map per scene, and stability.png: the largest step that each method
+# survives; and how far the reflex goes.
 # Stopped, it goes on where it was. `hagfish stress` judges a cell (experiments/mujoco/stress_judge.hpp).
 set -euo pipefail
 scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")/scenes" && pwd)

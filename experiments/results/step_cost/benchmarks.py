@@ -1,6 +1,7 @@
-"""What the parts of a step cost, from `hagfish_benchmarks`: ratios to MuJoCo as the page's table.
+"""What the parts of a step cost, from `hagfish_benchmarks`: ratios to MuJoCo as the page's tables.
 
-Usage: benchmarks.py BENCHMARKS.json OUT_FOLDER.
+Usage: benchmarks.py BENCHMARKS.json ANY_PROCESSOR.json LIVE.csv OUT_FOLDER.
+ANY_PROCESSOR.json is of the build without AVX, LIVE.csv the table of steps in WebAssembly of the page `live`.
 """
 
 import json
@@ -66,10 +67,37 @@ def ratios(times: Times, quickest: Quickest) -> list[list[str]]:
     return [[text, *cells] for text, cells in rows.items()]
 
 
-def main(benchmarks: Path, out: Path) -> None:
-    head, *rows = ratios(*medians(json.loads(benchmarks.read_text(encoding="utf-8"))["benchmarks"]))
+def beside(built: str, bodies: int, ours: tuple[float, float], theirs: tuple[float, float], by: str) -> list[str]:
+    """A row of the table of builds, from the times of a knotted step and of one without contact, microseconds."""
+    return [built, str(bodies), f"{ours[0]:.4g}", f"{theirs[0] / ours[0]:.1f}", by, f"{ours[1]:.4g}", f"{theirs[1] / ours[1]:.1f}"]
+
+
+def native_rows(built: str, benchmarks: list[dict[str, Any]]) -> list[list[str]]:
+    times, quickest = medians(benchmarks)
+    knotted = f"step_knotted:{RESTARTS[0]}"
+    return [beside(built, n, (times[("core", STEP)][n], times[("core", FREE)][n]), (times[("mujoco", knotted)][n], times[("mujoco", FREE)][n]),
+                   quickest[RESTARTS[0]][n][0])
+            for n in (100, 400)]
+
+
+def web_row(live: Path) -> list[str]:
+    """Today's MuJoCo by the setting whose knotted step is the quickest there, whatever its error."""
+    name, free, knotted = "simulator, integrator, solver, tolerance", "step without contact, µs", "knotted step, µs"
+    ours, *theirs = tables.read_csv(live, (name, free, knotted))
+    best = min(theirs, key=lambda row: float(row[knotted]))
+    pair = lambda row: (float(row[knotted]), float(row[free]))
+    return beside("both in WebAssembly", 100, pair(ours), pair(best), best[name])
+
+
+def main(benchmarks: Path, any_processor: Path, live: Path, out: Path) -> None:
+    measured, slower = (json.loads(path.read_text(encoding="utf-8"))["benchmarks"] for path in (benchmarks, any_processor))
+    head, *rows = ratios(*medians(measured))
     tables.write_table(out, "step_cost", head, rows)
+    tables.write_table(out, "step_cost_builds",
+                       ["built", "bodies", "knotted step here, µs", "MuJoCo over it", "by", "without contact, µs", "MuJoCo over that"],
+                       [*native_rows("here for the processor, MuJoCo by Debian", measured),
+                        *native_rows("both without AVX, MuJoCo by Debian", slower), web_row(live)])
 
 
 if __name__ == "__main__":
-    run_script(__doc__, ["BENCHMARKS.json", "OUT_FOLDER"], main)
+    run_script(__doc__, ["BENCHMARKS.json", "ANY_PROCESSOR.json", "LIVE.csv", "OUT_FOLDER"], main)
