@@ -1,9 +1,6 @@
 #include "mujoco_ref/closed_loop.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

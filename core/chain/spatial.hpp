@@ -20,15 +20,6 @@ inline Vector6d wrench_of_force(const Eigen::Vector3d& force, const Eigen::Vecto
   return w;
 }
 
-/// Adds that wrench to a column of wrenches: halves that stay in registers, where vectors of six
-/// would go through memory.
-template <class Column>
-void add_wrench_of_force(const Eigen::Vector3d& force, const Eigen::Vector3d& offset,
-                         Column&& wrench) {
-  wrench.template head<3>() += offset.cross(force);
-  wrench.template tail<3>() += force;
-}
-
 /// Velocity of the material point at `offset`, taken from O, of a body that moves with `twist`.
 template <class Twist>
 Eigen::Vector3d point_velocity(const Twist& twist, const Eigen::Vector3d& offset) {

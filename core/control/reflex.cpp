@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/control/controller.hpp"
-#include "core/control/laws.hpp"
 #include "core/muscle/active_curvature.hpp"
 #include "core/scene/normal_draw.hpp"
 

@@ -1,7 +1,6 @@
 #include "core/log/log_frame.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/control/laws.hpp"

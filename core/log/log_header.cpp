@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <vector>
 
 #include "core/knot/knot.hpp"
 #include "core/log/axis_labels.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "core/chain/bending.hpp"
 #include "core/scene/interpolation.hpp"

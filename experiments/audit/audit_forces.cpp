@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/step/step.hpp"
 #include "experiments/audit/row_force.hpp"
 
 namespace hagfish {

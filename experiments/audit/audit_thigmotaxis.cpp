@@ -1,7 +1,6 @@
 #include "experiments/audit/audit_thigmotaxis.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/log/frame_rows.hpp"
 #include "experiments/audit/row_force.hpp"

@@ -1,6 +1,5 @@
 #include "experiments/design/program_fit.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <stdexcept>
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/knot/knot.hpp"
 #include "core/run/drive.hpp"
 #include "core/step/outcome.hpp"
 #include "experiments/common/specimen_files.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "experiments/film/film_checks.hpp"
 #include "experiments/film/film_table.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/input/input_error.hpp"
-#include "experiments/film/fit/film_rigid.hpp"
+#include "experiments/film/fit/film_curve.hpp"
 #include "experiments/film/fit/film_shape.hpp"
 
 namespace hagfish {

@@ -12,8 +12,7 @@
 #include <sstream>
 
 #include "core/input/csv/delimited_text.hpp"
-#include "core/input/files/regular_file.hpp"
-#include "core/input/input_error.hpp"
+#include "core/input/files/text_file.hpp"
 #include "core/input/input_text.hpp"
 #include "core/log/hdf5/hdf5_error.hpp"
 

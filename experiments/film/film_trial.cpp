@@ -10,7 +10,7 @@
 #include "core/knot/writhe.hpp"
 #include "core/run/simulation.hpp"
 #include "core/scene/interpolation.hpp"
-#include "experiments/film/fit/film_rigid.hpp"
+#include "experiments/film/fit/film_curve.hpp"
 #include "experiments/film/fit/film_shape.hpp"
 
 namespace hagfish {

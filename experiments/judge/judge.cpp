@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/control/laws.hpp"
 #include "core/input/toml/toml_range.hpp"

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "experiments/mechanics/rod.hpp"
-
 namespace hagfish {
 namespace {
 

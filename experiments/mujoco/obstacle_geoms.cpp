@@ -1,6 +1,5 @@
 #include "experiments/mujoco/obstacle_geoms.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

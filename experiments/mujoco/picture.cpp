@@ -1,7 +1,6 @@
 #include "experiments/mujoco/picture.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -10,7 +10,6 @@
 #include "core/chain/dynamics.hpp"
 #include "core/control/controller.hpp"
 #include "core/log/reading/logged_run.hpp"
-#include "core/step/step.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace hagfish {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "core/control/script.hpp"
 #include "mujoco_ref/mirror.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "core/input/input_text.hpp"
 #include "experiments/film/film_table.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/shell_word.hpp"
 

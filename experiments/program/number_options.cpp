@@ -1,4 +1,4 @@
-#include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 
 #include <fmt/format.h>
 

@@ -11,11 +11,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <string>
 
-#include "core/input/files/regular_file.hpp"
+#include "core/input/files/text_file.hpp"
 #include "core/input/input_text.hpp"
-#include "experiments/common/failure.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/program/program.hpp"
 

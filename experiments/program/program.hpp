@@ -41,4 +41,11 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error);
 /// Lets an option take one of `names` only.
 CLI::Validator one_of(const std::vector<std::string>& names);
 
+/// Lets an option take finite numbers above 0 only: the checks of CLI11 let "nan" pass, and "inf"
+/// with some.
+CLI::Validator above_zero();
+
+/// Lets an option take finite numbers from `least` to `most` only.
+CLI::Validator from_to(double least, double most);
+
 }  // namespace hagfish

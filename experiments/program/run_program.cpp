@@ -1,9 +1,6 @@
 #include "experiments/program/run_program.hpp"
 
-#include <fmt/format.h>
-
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <string>
 

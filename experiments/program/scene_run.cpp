@@ -5,11 +5,9 @@
 #include <chrono>
 
 #include "core/input/input_text.hpp"
-#include "core/run/drive.hpp"
 #include "experiments/common/failure.hpp"
 #include "experiments/common/progress.hpp"
 #include "experiments/common/terminal.hpp"
-#include "experiments/program/number_options.hpp"
 
 namespace hagfish {
 namespace {

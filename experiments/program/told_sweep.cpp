@@ -1,14 +1,11 @@
 #include "experiments/program/told_sweep.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <thread>
 
 #include "core/input/input_text.hpp"
-#include "experiments/common/failure.hpp"
 #include "experiments/common/terminal.hpp"
-#include "experiments/program/number_options.hpp"
+#include "experiments/program/program.hpp"
 
 namespace hagfish {
 namespace {

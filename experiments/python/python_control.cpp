@@ -1,7 +1,6 @@
 #include "experiments/python/python_control.hpp"
 
 #include <pybind11/eigen.h>
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <string>

@@ -22,4 +22,19 @@ inline std::string scene_complaint(const std::string& more,
   return error_of([&] { read_scene_text(more + plain_scene, "s.toml", overrides); });
 }
 
+/// EXPECTs `line`, "KEY = VALUE" of `table` (of the scene itself where that is empty), to be
+/// refused by file, line, key and value, and `why`.
+inline void expect_refused(const std::string& table, const std::string& line,
+                           const std::string& why) {
+  const std::string heading = table.empty() ? "" : "[" + table + "]\n";
+  EXPECT_EQ(scene_complaint(heading + line + "\n"),
+            (table.empty() ? "s.toml:1: " : "s.toml:2: " + table + ".") + line + ": " + why);
+}
+
+/// EXPECTs the option "--set KEY=VALUE" to be refused for `why`, after `more` in the scene.
+inline void expect_set_refused(const std::string& set, const std::string& why,
+                               const std::string& more = "") {
+  EXPECT_EQ(scene_complaint(more, {set}), "s.toml: --set " + set + ": " + why);
+}
+
 }  // namespace hagfish

@@ -31,7 +31,6 @@ std::vector<StoredState> stored_states() {
     stored.phase = static_cast<Phase>(toml::find<int>(entry, "phase"));
     stored.step = toml::find<std::int64_t>(entry, "step");
     stored.state = {numbers("q"), numbers("qdot")};
-    stored.later = numbers("later").reshaped(3, numbers("later").size() / 3);
     states.push_back(std::move(stored));
   }
   return states;

@@ -17,7 +17,6 @@ struct StoredState {
   Phase phase = Phase::form;
   std::int64_t step = 0;
   State state;
-  Eigen::Matrix3Xd later;  ///< body centres 0.1 s later in the same run, cm
 };
 
 /// How tests of every state name and show it.

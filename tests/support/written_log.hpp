@@ -44,4 +44,20 @@ std::vector<T> rewrite(const std::filesystem::path& file, const std::string& pat
   return before;
 }
 
+/// What the audit objects to while `change` has had the values of a dataset, written as `type`.
+template <class T, class Change>
+std::string objections_while(const std::filesystem::path& file, const std::string& path,
+                             const H5::DataType& type, Change change) {
+  const std::vector<T> before = rewrite<T>(file, path, type, change);
+  const std::string text = audit_objections(file);
+  rewrite<T>(file, path, type, [&](std::vector<T>& values) { values = before; });
+  return text;
+}
+/// The same of a dataset of numbers with fractions.
+template <class Change>
+std::string objections_while(const std::filesystem::path& file, const std::string& path,
+                             Change change) {
+  return objections_while<double>(file, path, H5::PredType::NATIVE_DOUBLE, change);
+}
+
 }  // namespace hagfish

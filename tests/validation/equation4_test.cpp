@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "tests/support/random_chain.hpp"
 #include "tests/support/step_stage.hpp"
 #include "tests/support/stored_states.hpp"
 

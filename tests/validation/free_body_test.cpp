@@ -11,7 +11,6 @@
 
 #include "core/input/files/scene_reader.hpp"
 #include "core/run/simulation.hpp"
-#include "mujoco_ref/mirror.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish::free_body_test {
@@ -110,70 +109,6 @@ TEST_P(FreeBody, MovesItsCentreOfMassAtNoStep) {
     EXPECT_GT(
         run.sim.momentum.given_back.linear.norm() + run.sim.momentum.given_back.angular.norm(),
         GetParam() == std::string("euler") ? 1 : 1e-3);  // it had to be made so
-  }
-}
-
-/// Torques of such a wave at the hinges, dyn cm (nv), whatever the body does.
-Eigen::VectorXd wave_torque(const Model& model, double time) {
-  const double size = 4000 * 0.5 * (1 - std::cos(pi * std::min(1.0, time / 0.5)));
-  Eigen::VectorXd torque = Eigen::VectorXd::Zero(model.nv());
-  for (int k = root_dofs; k < model.nv(); ++k) {
-    const Hinge& hinge = model.hinges[k - root_dofs];
-    const double phase = 2 * pi * (static_cast<double>(hinge.body) / bodies - time);
-    if (hinge.axis == Axis::z) torque[k] = size * std::sin(phase);
-    if (hinge.axis == Axis::y) torque[k] = 0.7 * size * std::cos(phase);
-  }
-  return torque;
-}
-
-/// How far MuJoCo moves the centre of mass of the same body by the same torques in 2 s, cm; nan
-/// where it finds the state bad.
-double moved_by_mujoco(const Model& model, int integrator, double h) {
-  MujocoModel mirror(mjcf_files(model, model.length(), h, Head::free));
-  mirror.model()->opt.integrator = integrator;
-  set_state(model, rest_state(model), mirror);
-  const auto centre = [&] {
-    return centre_of_mass(model, kinematics(model, state_of(model, mirror)));
-  };
-  const Eigen::Vector3d begin = centre();
-  double moved = 0;
-  for (int i = 0; i < std::lround(2 / h); ++i) {
-    Eigen::VectorXd::Map(mirror.data()->qfrc_applied, model.nv()) = wave_torque(model, i * h);
-    mj_step(mirror.model(), mirror.data());
-    try {
-      check_stable(mirror);
-    } catch (const StepError&) {
-      return NAN;
-    }
-    moved = std::max(moved, (centre() - begin).norm());
-  }
-  return moved;
-}
-
-TEST(FreeBodyRule, MovesItsCentreOfMassBesideMujoco) {
-  for (const double h : {0.005, 0.002, 0.001}) {
-    const std::vector<std::string> soft{"model.bending_stiffness=4000",
-                                        "model.twist_stiffness=4000", "model.bending_damping=400",
-                                        "model.twist_damping=400", "contact.least_arc=42"};
-    const ControlLaw push = [](const Situation& at, Eigen::VectorXd&, Control& control) {
-      control.torque.value = wave_torque(at.model, at.time);
-    };
-    std::cout << "[ FIGURE   ] h = " << 1e3 * h << " ms, centre of mass, cm:";
-    for (const std::string momentum : {"kept", "rule"}) {
-      for (const std::string rule : {"euler", "midpoint"}) {
-        std::vector<std::string> set = soft;
-        set.push_back("time.momentum=" + momentum);
-        FreeRun run(empty_space(rule, h, set), push);
-        while (run.time() < 2) run.step();
-        std::cout << " " << rule << " " << momentum << " " << run.moved << ",";
-        if (momentum == "kept") {
-          EXPECT_LT(run.moved, 1e-9);
-        }
-      }
-    }
-    const Model model = FreeRun(empty_space("euler", h, soft), push).model;
-    std::cout << " MuJoCo's Euler " << moved_by_mujoco(model, mjINT_EULER, h) << ", implicit "
-              << moved_by_mujoco(model, mjINT_IMPLICIT, h) << "\n";
   }
 }
 

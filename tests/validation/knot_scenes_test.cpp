@@ -230,10 +230,4 @@ TEST(KnotScenesWithCones, TieHoldSlideAndComeOff) {
   expect_whole(scene_called("table1", {"model.bending_limit=cone"}));
 }
 
-TEST(Mirror, GivesTheOtherHandToTheEnd) {
-  const Seen seen = run(scene_called("double_overhand", {"mirror=true"}));
-  EXPECT_TRUE(seen.held);
-  EXPECT_LT(seen.most_writhe, -4);  // an ideal 5_1 has 6.3
-}
-
 }  // namespace hagfish::knot_scenes_test

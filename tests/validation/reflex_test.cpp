@@ -1,6 +1,5 @@
 // The reflex on whole animals: it slides each knot, and what is taken from it keeps it from that;
 // MuJoCo slides the same knot by it at the same speed.
-#include "core/control/reflex.hpp"
 
 #include <gtest/gtest.h>
 

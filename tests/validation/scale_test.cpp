@@ -4,7 +4,6 @@
 // in.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
 #include "core/input/files/scene_reader.hpp"

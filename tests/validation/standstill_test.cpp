@@ -36,13 +36,6 @@ TEST(Standstill, OfAFreeBody) {
 
 TEST(Standstill, OfAClampedStraightBody) { EXPECT_EQ(objections(scene_of({})), ""); }
 
-TEST(Standstill, OfFreeFall) {
-  EXPECT_EQ(
-      objections(scene_of({"clamp_head=false", "wall.present=false", "gravity=[0.0,0.0,-981.0]",
-                           "drag.normal=0.0", "drag.tangential=0.0"})),
-      "");
-}
-
 TEST(Standstill, OfABodyPulledStraight) {
   const ControlLaw pull = [](const Situation&, Eigen::VectorXd&, Control& control) {
     control.tip = {{500, 0, 0}, 0};

@@ -2,7 +2,6 @@
 
 #include <fstream>
 
-#include "core/input/files/regular_file.hpp"
 #include "core/input/input_text.hpp"
 
 namespace hagfish {
@@ -12,6 +11,22 @@ namespace {
 constexpr std::size_t largest_text = std::size_t{1} << 20;
 
 }  // namespace
+
+std::string unreadable(const std::filesystem::path& file) {
+  using Type = std::filesystem::file_type;
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  switch (status.type()) {
+    case Type::regular:
+      return "";
+    case Type::not_found:
+      return "no such file";
+    case Type::directory:
+      return "is a directory";
+    default:
+      return error ? "cannot be read: " + error.message() : "is not a regular file";
+  }
+}
 
 std::string read_text_file(const std::filesystem::path& file) {
   if (const std::string why = unreadable(file); !why.empty()) {

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <sstream>
 #include <tuple>
-#include <utility>
 
 #include "core/input/toml/toml_document.hpp"
 

@@ -1,6 +1,5 @@
 #include "core/input/toml/toml_writer.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>

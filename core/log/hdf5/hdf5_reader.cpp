@@ -7,13 +7,12 @@
 #include <array>
 #include <cmath>
 #include <csignal>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "core/input/files/regular_file.hpp"
+#include "core/input/files/text_file.hpp"
 
 namespace hagfish {
 namespace {

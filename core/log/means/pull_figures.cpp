@@ -1,7 +1,5 @@
 #include "core/log/means/pull_figures.hpp"
 
-#include <limits>
-
 namespace hagfish {
 namespace {
 

@@ -1,4 +1,5 @@
-// A smooth curve through the points of one frame, and the bends of a body that lies along it.
+// A smooth curve through the points of one frame, the bends of a body that lies along it, and the
+// motion that brings points nearest to others.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,5 +25,16 @@ CurveBends bends_along(const Eigen::Matrix3Xd& curve, Eigen::Index stations);
 /// The turn that brings X nearest to `along`, a unit vector: about Z alone where `along` is in the
 /// plane of X and Y.
 Eigen::Matrix3d turn_to(const Eigen::Vector3d& along);
+
+struct RigidMotion {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  Eigen::Matrix3Xd of(const Eigen::Matrix3Xd& points) const {
+    return (rotation * points).colwise() + shift;
+  }
+};
+
+/// x to rotation x + shift, that brings `from` (3 x n) nearest to `to`, by least squares.
+RigidMotion nearest_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
 
 }  // namespace hagfish

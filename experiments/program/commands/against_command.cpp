@@ -13,7 +13,6 @@
 #include "experiments/film/film_trial.hpp"
 #include "experiments/film/fit/film_curve.hpp"
 #include "experiments/program/film_words.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scripts.hpp"
 

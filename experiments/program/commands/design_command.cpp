@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <sstream>
@@ -11,7 +10,6 @@
 #include "experiments/common/terminal.hpp"
 #include "experiments/design/design.hpp"
 #include "experiments/design/soft_body.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 
 namespace hagfish {

@@ -18,7 +18,6 @@
 #include "experiments/film/film_verdict.hpp"
 #include "experiments/film/fit/film_fit.hpp"
 #include "experiments/program/film_words.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scripts.hpp"
 #include "experiments/program/shell_word.hpp"

@@ -5,7 +5,6 @@
 #include "core/log/reading/log_contents.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/design/program_fit.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 
 namespace hagfish {

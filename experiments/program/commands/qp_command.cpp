@@ -7,7 +7,6 @@
 #include "experiments/common/csv.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/qp/qp_table.hpp"
 

@@ -9,7 +9,6 @@
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/scene_sense.hpp"
 #include "experiments/common/terminal.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/qp/qp_set.hpp"
 #include "experiments/qp/step_qp.hpp"

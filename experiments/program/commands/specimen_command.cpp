@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <numbers>
@@ -12,7 +11,6 @@
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/specimen_files.hpp"
 #include "experiments/common/text_file.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/shell_word.hpp"
 

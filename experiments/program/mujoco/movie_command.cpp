@@ -12,7 +12,6 @@
 #include "experiments/common/text_file.hpp"
 #include "experiments/mujoco/encoder.hpp"
 #include "experiments/mujoco/frame_picture.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 
 namespace hagfish {

@@ -8,7 +8,6 @@
 #include "core/log/reading/logged_run.hpp"
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/scene_sense.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/scene_run.hpp"
 #include "mujoco_ref/closed_loop.hpp"

@@ -8,7 +8,6 @@
 #include "experiments/common/csv.hpp"
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/text_file.hpp"
-#include "experiments/program/number_options.hpp"
 #include "experiments/program/program.hpp"
 
 namespace hagfish {

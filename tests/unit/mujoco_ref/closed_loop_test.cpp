@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "core/input/input_error.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
 

@@ -5,9 +5,6 @@
 #include "mujoco_ref/mirror.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "tests/support/muscled_hagfish.hpp"
-#include "tests/support/stored_states.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "tests/support/written_log.hpp"
 
 namespace hagfish::mjcf_muscles_test {
 
@@ -47,37 +44,5 @@ INSTANTIATE_TEST_SUITE_P(Heads, MjcfMuscles, testing::Values(Head::free, Head::c
                          [](const auto& head) {
                            return head.param == Head::free ? "free" : "clamped";
                          });
-
-/// A run moved by activations, by what its log has: states, activations, torques.
-TEST(MjcfMusclesOfALog, MakeItsTorques) {
-  const ResolvedScene resolved =
-      stored_scene({"controller.law=muscles", "muscle.present=true", "muscle.activation_time=0.1",
-                    "time.frame_interval=0.01", "knot.votes=5"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  const TemporaryFolder folder;
-  const std::filesystem::path file = folder / "log.h5";
-  write_log(file, resolved, model, resume(model, resolved.scene, stored_states().at(3)), 63);
-  const Hdf5Reader log(file);
-  MujocoModel mirror(
-      mjcf_files(model, resolved.scene.contact.least_arc, resolved.scene.time.step));
-  mirror.model()->opt.disableflags |= mjDSBL_CONSTRAINT;
-  const Hdf5Reader::Rows q = log.rows("/trajectory/q"), qdot = log.rows("/trajectory/qdot"),
-                         driven = log.rows("/muscle/driven"), torque = log.rows("/forces/active");
-  ASSERT_EQ(driven.cols(), mirror.model()->nu);
-  const Eigen::Index steps = q.rows() - 1;  // frames that begin one: not the end
-  const double scale = torque.topRows(steps).lpNorm<Eigen::Infinity>();
-  ASSERT_GT(scale, 10);  // dyn cm
-  for (Eigen::Index f = 0; f < steps; ++f) {
-    set_state(model, {q.row(f), qdot.row(f)}, mirror);
-    std::ranges::copy(driven.row(f), mirror.data()->ctrl);
-    mj_forward(mirror.model(), mirror.data());
-    const Eigen::Map<const Eigen::VectorXd> mujoco(mirror.data()->qfrc_actuator,
-                                                   mirror.model()->nv);
-    EXPECT_LE(
-        (mujoco - torque.row(f).tail(mirror.model()->nv).transpose()).lpNorm<Eigen::Infinity>(),
-        torque_tolerance * scale)
-        << "frame " << f;
-  }
-}
 
 }  // namespace hagfish::mjcf_muscles_test

@@ -75,13 +75,7 @@ class OffscreenTest : public testing::Test {
   }
 
   /// The pixel of a point (cm) of the picture plane.
-  Pixel at(const Image& image, double x, double y) const {
-    const int column = static_cast<int>((x - view.low.x()) * view.scale);
-    const int row = image.height - 1 - static_cast<int>((y - view.low.y()) * view.scale);
-    const unsigned char* rgb =
-        &image.rgb[3 * (static_cast<std::size_t>(row) * image.width + column)];
-    return {rgb[0], rgb[1], rgb[2]};
-  }
+  Pixel at(const Image& image, double x, double y) const { return pixel_at(image, view, x, y); }
 
   /// Lit skin: red, with no more green and blue than the white of a highlight adds.
   static bool is_skin(const Pixel& pixel) { return pixel[0] > 60 && pixel[0] > pixel[1] + 40; }

@@ -8,8 +8,6 @@
 #include <limits>
 #include <numeric>
 
-#include "solvers/free_rows.hpp"
-#include "solvers/ipopt_box_qp.hpp"
 #include "tests/support/random_qp.hpp"
 
 namespace hagfish::active_set_test {
@@ -54,18 +52,6 @@ TEST(ActiveSetPivoting, BlocksGiveUpWhereTheyCycleAndSingleChangesEnd) {
   EXPECT_LE((solve_cold(qp).x - cycling_x()).lpNorm<Eigen::Infinity>(), settled);
 }
 
-TEST(ActiveSetPivoting, SingleChangesAloneFindKnownSolutions) {
-  std::mt19937 random(31);
-  for (int count = 1; count <= 8; ++count) {
-    const KnownQp known = known_qp(random, 60, each_role(count), 10);
-    ActiveSetPivoting pivoting;
-    pivoting.start(known.dual);
-    ASSERT_EQ(pivoting.change_singly(), ActiveSetPivoting::Ending::settled);
-    EXPECT_LE(velocity_error(known.primal, velocity_of(known.primal, pivoting.x()), known.v),
-              settled);
-  }
-}
-
 TEST(ActiveSetPivoting, SingleChangesEndOnRowsThatDependAndMeetInOnePoint) {
   // Rows of -1, 0 and 1 in up to 4 velocities, all through one point or short of it by 1 or 2:
   // copies, sums, corners of many rows, caps that are just met.
@@ -103,27 +89,6 @@ TEST(ActiveSetPivoting, SingleChangesEndOnRowsThatDependAndMeetInOnePoint) {
   }
 }
 
-TEST(ActiveSetBoxQp, FindsTheSameFromEveryStart) {
-  std::mt19937 random(33);
-  for (int count = 1; count <= 6; ++count) {
-    const KnownQp known = known_qp(random, 60, each_role(count), 10);
-    const Eigen::VectorXd cold = solve_cold(known.dual).x;
-    for (int trial = 0; trial < 5; ++trial) {
-      // Rows at a bound, inside, or unknown, at random.
-      Eigen::VectorXd start = known.x;
-      for (Eigen::Index i = 0; i < start.size(); ++i) {
-        const std::uint_fast32_t what = random() % 4;
-        start[i] = what == 0 ? 0 : what == 1 ? 1 : what == 2 ? known.dual.upper[i] : known.x[i];
-      }
-      const BoxQpSolution solution = ActiveSetBoxQp().solve(known.dual, start);
-      ASSERT_EQ(solution.status, SolveStatus::solved) << solution.message;
-      const Eigen::VectorXd scale = row_scale(known.dual.A);
-      EXPECT_LE((solution.x - cold).cwiseProduct(scale).lpNorm<Eigen::Infinity>(),
-                settled * cold.cwiseProduct(scale).lpNorm<Eigen::Infinity>());
-    }
-  }
-}
-
 TEST(ActiveSetBoxQp, TakesTheRightStartAtItsWord) {
   std::mt19937 random(34);
   const KnownQp known = known_qp(random, 60, each_role(6));
@@ -140,20 +105,6 @@ TEST(ActiveSetBoxQp, ForgetsHugeMultipliersOnItsWay) {
   ASSERT_EQ(solution.status, SolveStatus::solved) << solution.message;
   EXPECT_EQ(solution.x[0], 0);
   EXPECT_LE(std::abs(solution.x[1] - 1 / (1 + 1e-10)), settled);
-}
-
-TEST(ActiveSetBoxQp, DoesNotDependOnTheOrderOfRows) {
-  std::mt19937 random(35);
-  for (int count = 1; count <= 6; ++count) {
-    const KnownQp known = known_qp(random, 60, each_role(count), 10);
-    const std::vector<Eigen::Index> order = shuffled(random, known.x.size());
-    const BoxQpSolution solution = solve_cold(permuted(known.dual, order));
-    ASSERT_EQ(solution.status, SolveStatus::solved) << solution.message;
-    const Eigen::VectorXd scale = row_scale(known.dual.A)(order);
-    const Eigen::VectorXd error = (solution.x - known.x(order)).cwiseProduct(scale);
-    EXPECT_LE(error.lpNorm<Eigen::Infinity>(),
-              settled * known.x(order).cwiseProduct(scale).lpNorm<Eigen::Infinity>());
-  }
 }
 
 TEST(ActiveSetBoxQp, FindsTheVelocityInAnyOrderOfRedundantRows) {
@@ -173,31 +124,6 @@ TEST(ActiveSetBoxQp, FindsTheVelocityInAnyOrderOfRedundantRows) {
                              velocity_of(known.primal, straight.x)),
               settled);
   }
-}
-
-TEST(ActiveSetBoxQp, AgreesWithIpopt) {
-  std::mt19937 random(37);
-  for (int count = 1; count <= 6; ++count) {
-    const KnownQp known = known_qp(random, 60, each_role(count), 10);
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(known.x.size());
-    const Eigen::VectorXd v = velocity_of(known.primal, solve_cold(known.dual).x);
-    const BoxQpSolution ipopt = IpoptBoxQp().solve(known.dual, zero);
-    ASSERT_EQ(ipopt.status, SolveStatus::solved) << ipopt.message;
-    EXPECT_LE(velocity_error(known.primal, v, velocity_of(known.primal, ipopt.x)), settled);
-  }
-}
-
-TEST(ActiveSetBoxQp, AgreesWithLeastSquaresOnRedundantFreeRows) {
-  std::mt19937 random(38);
-  const Eigen::MatrixXd J = Eigen::MatrixXd::NullaryExpr(
-      12, 5, [&] { return static_cast<double>(random() % 200) / 100 - 1; });
-  BoxQp qp = qp_of_rows(J, J * Eigen::VectorXd::Ones(5));
-  qp.lower.setConstant(-infinity);
-  const BoxQpSolution solution = solve_cold(qp);
-  ASSERT_EQ(solution.status, SolveStatus::solved) << solution.message;
-  EXPECT_LE(kkt_residuals(qp, solution.x).worst(), settled);
-  const Eigen::VectorXd other = SemidefiniteFactor(qp.A).solve(qp.b);
-  EXPECT_LE((J.transpose() * (solution.x - other)).lpNorm<Eigen::Infinity>(), settled);
 }
 
 /// `J` v >= b among eight rows of the same velocities that are fine; where the rows of J went.

@@ -4,7 +4,6 @@
 #include <toml.hpp>
 
 #include <Eigen/Cholesky>
-#include <cmath>
 #include <limits>
 
 #include "solvers/box_qp.hpp"

@@ -97,45 +97,6 @@ TEST(Articulated, SolvesForWrenchesAndJointForces) {
   }
 }
 
-TEST(Articulated, HalfSolvesOfManyColumnsMultiplyToTheWhole) {
-  Random random(34);
-  const Case c = hagfish_case(random, 100);
-  ArticulatedFactor factor;
-  factor.factorise(c.model, c.kin, c.op);
-  const int m = 37;
-  RowColumns columns;
-  Eigen::MatrixXd right(c.model.nv(), m), solved(c.model.nv(), m);
-  for (const int count : {m + 5, m}) {  // the second time in storage of the first
-    columns.reset(c.model, count);
-    for (int j = 0; j < count; ++j) {
-      Eigen::VectorXd joint = Eigen::VectorXd::Zero(c.model.nv());
-      Matrix6Xd wrench = Matrix6Xd::Zero(6, 100);
-      for (int k = 0; k < j % 3; ++k) {  // columns 0, 3, 6, ... are empty but for a joint force
-        const int body = static_cast<int>(random() % 100);
-        const Vector6d load = random_entries(random, 6);
-        wrench.col(body) += load;
-        columns.load(c.model, body, j, load.head<3>(), load.tail<3>());
-      }
-      const auto dof = static_cast<Eigen::Index>(random() % c.model.nv());
-      joint[dof] = 1 + j;
-      columns.load_joint(dof, j, 1 + j);
-      if (count == m) {
-        right.col(j) = generalised_force(c.model, c.kin, wrench) + joint;
-        solved.col(j) = factor.solve(c.model, c.kin, wrench, joint);
-      }
-    }
-  }
-  factor.half_solve(c.model, c.kin, columns);
-  const Eigen::MatrixXd expected = right.transpose() * solved;
-  Eigen::MatrixXd product;
-  columns.gram(product);
-  // Both are rounding times the condition of H away from the truth, brought to unit diagonal.
-  const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
-  EXPECT_LT(
-      (scale.asDiagonal() * (product - expected) * scale.asDiagonal()).lpNorm<Eigen::Infinity>(),
-      1e-10);
-}
-
 /// Every third velocity prescribed, and the first six where the head is.
 std::vector<PrescribedVelocity> some_prescribed(Random& random, const Model& model, bool head) {
   std::vector<PrescribedVelocity> prescribed;
@@ -189,37 +150,6 @@ TEST(Articulated, HoldsVelocitiesAndTellsTheForces) {
       }
     }
   }
-}
-
-TEST(Articulated, HeldVelocitiesDoNotAnswerInAHalfSolve) {
-  Random random(38);
-  const Case c = hagfish_case(random, 100);
-  const std::vector<PrescribedVelocity> prescribed = some_prescribed(random, c.model, true);
-  ArticulatedFactor factor;
-  factor.factorise(c.model, c.kin, c.op, prescribed);
-  const int m = 21;
-  RowColumns columns;
-  columns.reset(c.model, m);
-  Eigen::MatrixXd right(c.model.nv(), m);
-  for (int j = 0; j < m; ++j) {
-    Matrix6Xd wrench = Matrix6Xd::Zero(6, 100);
-    const int body = 99 - 4 * j;
-    wrench.col(body) = random_entries(random, 6);
-    columns.load(c.model, body, j, wrench.col(body).head<3>(), wrench.col(body).tail<3>());
-    right.col(j) = generalised_force(c.model, c.kin, wrench);
-    columns.load_joint(7 * (j % 3), j, 1);  // the first and the last are prescribed
-    right(7 * (j % 3), j) += 1;
-  }
-  for (const PrescribedVelocity& velocity : prescribed) right.row(velocity.dof).setZero();
-  factor.half_solve(c.model, c.kin, columns);
-  Eigen::MatrixXd product;
-  columns.gram(product);
-  const Eigen::MatrixXd h = dense(c.model, c.kin, c.op);
-  const Eigen::MatrixXd expected = right.transpose() * without(h, prescribed).llt().solve(right);
-  const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
-  EXPECT_LT(
-      (scale.asDiagonal() * (product - expected) * scale.asDiagonal()).lpNorm<Eigen::Infinity>(),
-      1e-10);
 }
 
 TEST(Articulated, PivotIsTheInverseMobilityOverAFixedBase) {

@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <cmath>
-#include <vector>
-
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -26,11 +22,6 @@ Eigen::VectorXd bias_force(const Model& model, const State& state) {
   return generalised_force(model, kin, bias_wrench(model, kin, motion_of(kin)));
 }
 
-double energy_at(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& qdot) {
-  const Kinematics kin = kinematics(model, {q, qdot});
-  return kinetic_energy(model, kin);
-}
-
 TEST(Dynamics, KineticEnergyIsThatOfTheBodiesAndOfTheMassMatrix) {
   Random random(41);
   for (int trial = 0; trial < 10; ++trial) {
@@ -46,34 +37,6 @@ TEST(Dynamics, KineticEnergyIsThatOfTheBodiesAndOfTheMassMatrix) {
     }
     EXPECT_NEAR(kinetic_energy(model, kin) / energy, 1, rounding);
     EXPECT_NEAR(0.5 * state.qdot.dot(mass_matrix(model, kin) * state.qdot) / energy, 1, rounding);
-  }
-}
-
-// Lagrange: with the root clamped the hinge angles are true coordinates, and the bias is
-// Ṁ q̇ - ∂T/∂q. The mass matrix at displaced angles is all it takes from the code under test.
-TEST(Dynamics, BiasIsLagranges) {
-  Random random(42);
-  for (int trial = 0; trial < 10; ++trial) {
-    const Model model = random_chain(random, 8);
-    State state = random_state(random, model, 1, 2);
-    state.qdot.head<6>().setZero();
-    const Eigen::Index hinges = model.nv() - root_dofs;
-    const auto hinge_mass = [&](const Eigen::VectorXd& q) -> Eigen::MatrixXd {
-      return mass_matrix(model, kinematics(model, {q, state.qdot}))
-          .bottomRightCorner(hinges, hinges);
-    };
-    const Eigen::VectorXd rate = state.qdot.tail(hinges);
-    Eigen::VectorXd expected = (hinge_mass(advance(state.q, state.qdot, step)) -
-                                hinge_mass(advance(state.q, state.qdot, -step))) *
-                               rate / (2 * step);
-    for (Eigen::Index k = 0; k < hinges; ++k) {
-      const Eigen::VectorXd along = Eigen::VectorXd::Unit(model.nv(), 6 + k);
-      const Eigen::MatrixXd change =
-          hinge_mass(advance(state.q, along, step)) - hinge_mass(advance(state.q, along, -step));
-      expected[k] -= 0.5 * rate.dot(change * rate) / (2 * step);
-    }
-    EXPECT_LT(relative_error(bias_force(model, state).tail(hinges), expected),
-              difference_tolerance);
   }
 }
 
@@ -104,39 +67,6 @@ TEST(Dynamics, BiasIsRedMaxs) {
     }
     EXPECT_LT(relative_error(bias_force(model, state), expected), difference_tolerance);
   }
-}
-
-TEST(Dynamics, WorkOfInertiaIsTheRateOfKineticEnergy) {
-  Random random(44);
-  for (int trial = 0; trial < 10; ++trial) {
-    const Model model = random_chain(random, 10);
-    const State state = random_state(random, model, 1, 2);
-    const Eigen::VectorXd acceleration = random_entries(random, model.nv(), 5);
-    const Eigen::VectorXd inertial =
-        mass_matrix(model, kinematics(model, state)) * acceleration + bias_force(model, state);
-    // The error of q at ± time is even in time and falls out of the central difference.
-    const auto energy = [&](double time) {
-      return energy_at(model, advance(state.q, state.qdot, time), state.qdot + time * acceleration);
-    };
-    const double rate = (energy(step) - energy(-step)) / (2 * step);
-    const double scale = state.qdot.cwiseAbs().dot(inertial.cwiseAbs());
-    EXPECT_NEAR(state.qdot.dot(inertial) / scale, rate / scale, difference_tolerance);
-  }
-}
-
-/// Linear and angular momentum about the world's origin.
-Vector6d momentum(const Model& model, const Kinematics& kin) {
-  Vector6d sum = Vector6d::Zero();
-  for (int b = 0; b < model.body_count(); ++b) {
-    const Eigen::Vector3d p =
-        model.bodies[b].mass * point_velocity(kin.twist.col(b), kin.centre_offset(b));
-    const Eigen::Vector3d spin =
-        kin.rotation[b] * model.bodies[b].inertia.cwiseProduct(kin.rotation[b].transpose() *
-                                                               kin.twist.col(b).head<3>());
-    sum.head<3>() += kin.centre.col(b).cross(p) + spin;
-    sum.tail<3>() += p;
-  }
-  return sum;
 }
 
 TEST(Dynamics, KineticEnergiesOfAStateAreThoseOfItsKinematics) {
@@ -176,49 +106,6 @@ TEST(Dynamics, BiasHasThePowerThatItIsGiven) {
   }
   power.least = 1e9;  // far more than any body has
   EXPECT_LT((bias_wrench(model, kin, motion) - plain).norm(), 1e-6 * plain.norm());
-}
-
-TEST(Dynamics, FreeChainKeepsItsMomentum) {
-  Random random(45);
-  for (int trial = 0; trial < 10; ++trial) {
-    const Model model = random_chain(random, 10);
-    const State state = random_state(random, model, 1, 2);
-    const Eigen::VectorXd acceleration =
-        -mass_matrix(model, kinematics(model, state)).llt().solve(bias_force(model, state));
-    const auto after = [&](double time) {
-      return momentum(model, kinematics(model, {advance(state.q, state.qdot, time),
-                                                state.qdot + time * acceleration}));
-    };
-    const Vector6d rate = (after(step) - after(-step)) / (2 * step);
-    // Accelerations of single bodies are of the order of nv times the squared rates.
-    const double scale =
-        after(0).lpNorm<Eigen::Infinity>() * acceleration.lpNorm<Eigen::Infinity>();
-    EXPECT_LT(rate.lpNorm<Eigen::Infinity>() / scale, difference_tolerance);
-  }
-}
-
-TEST(Dynamics, StepsOfAFreeChainKeepMomentumToFirstOrder) {
-  // Semi-implicit Euler errs by O(h²) a step: half the step, half the drift. 20 % covers the next
-  // order.
-  Random random(46);
-  Model model = random_chain(random, 8);
-  model.gravity.setZero();
-  model.drag = {};
-  const State start = random_state(random, model, 0.5);
-  const auto drift = [&](double h) {
-    State state = start;
-    for (double time = 0; time < 0.1 - 0.5 * h; time += h) {
-      const Kinematics kin = kinematics(model, state);
-      const StepSystem system = step_system(model, state, kin, {}, h);
-      ArticulatedFactor factor;
-      factor.factorise(model, kin, system.op);
-      state.qdot = factor.solve(model, kin, system.wrench, system.joint);
-      state.q = advance(state.q, state.qdot, h);
-    }
-    return (momentum(model, kinematics(model, state)) - momentum(model, kinematics(model, start)))
-        .norm();
-  };
-  EXPECT_NEAR(drift(2e-4) / drift(1e-4), 2, 0.4);
 }
 
 TEST(Dynamics, DragIsItsIntegralAlongTheBody) {

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 
@@ -41,17 +38,6 @@ Matrix6Xd difference_twists(const Model& model, const State& state, const Eigen:
   return twists;
 }
 
-TEST(Kinematics, RestIsStraightAlongX) {
-  const Model fish = table1_hagfish();
-  const Kinematics kin = kinematics(fish, rest_state(fish));
-  for (int b = 0; b < 100; ++b) {
-    EXPECT_EQ(kin.rotation[b], Eigen::Matrix3d::Identity());
-    // b sums of one length: b roundings of at most 42.4 eps / 2.
-    EXPECT_LT((kin.centre.col(b) - Eigen::Vector3d(0.424 * (b + 0.5), 0, 0)).norm(), 1e-12);
-    EXPECT_LT((kin.origin.col(b) - Eigen::Vector3d(0.424 * b, 0, 0)).norm(), 1e-12);
-  }
-}
-
 TEST(Kinematics, HingesTurnInTheirOrder) {
   Random random(21);
   for (int trial = 0; trial < 20; ++trial) {
@@ -82,25 +68,6 @@ TEST(Kinematics, ReferenceIsTheMiddleBody) {
   EXPECT_EQ(kin.centre_offset(50).norm(), 0);
 }
 
-TEST(Kinematics, AxisColumnsAreRatesOfPositions) {
-  Random random(22);
-  for (int trial = 0; trial < 10; ++trial) {
-    const Model model = random_chain(random, 9);
-    const State state = random_state(random, model, 1);
-    const Kinematics kin = kinematics(model, state);
-    for (int k = 0; k < model.nv(); ++k) {
-      const Matrix6Xd expected =
-          difference_twists(model, state, Eigen::VectorXd::Unit(model.nv(), k), kin.reference);
-      for (int b = 0; b < model.body_count(); ++b) {
-        const Vector6d column = body_jacobian(model, kin, b).col(k);
-        // Unit rates: entries of size 1 to 10.
-        EXPECT_LT((column - expected.col(b)).lpNorm<Eigen::Infinity>(), difference_tolerance)
-            << "body " << b << " velocity " << k;
-      }
-    }
-  }
-}
-
 TEST(Kinematics, TwistsAreRatesOfPositions) {
   Random random(23);
   for (int trial = 0; trial < 20; ++trial) {
@@ -111,9 +78,13 @@ TEST(Kinematics, TwistsAreRatesOfPositions) {
               difference_tolerance);
     EXPECT_LT(relative_error(body_twists(model, kin, state.qdot), kin.twist), 1e-14);
     const Eigen::VectorXd v = random_entries(random, model.nv());
-    EXPECT_LT(relative_error(body_twists(model, kin, v),
-                             difference_twists(model, state, v, kin.reference)),
-              difference_tolerance);
+    const Matrix6Xd expected = difference_twists(model, state, v, kin.reference);
+    EXPECT_LT(relative_error(body_twists(model, kin, v), expected), difference_tolerance);
+    for (int b = 0; b < model.body_count(); ++b) {
+      EXPECT_LT((body_jacobian(model, kin, b) * v - expected.col(b)).lpNorm<Eigen::Infinity>(),
+                10 * difference_tolerance)
+          << b;
+    }
   }
 }
 
@@ -150,19 +121,6 @@ TEST(Kinematics, GeneralisedForceIsTheTransposedJacobian) {
     }
     // Sums of 12 products of size 10.
     EXPECT_LT(relative_error(generalised_force(model, kin, wrench), expected), 1e-13);
-  }
-}
-
-TEST(Kinematics, NoForceBehindTheLastLoadedBody) {
-  const Model fish = table1_hagfish();
-  Random random(26);
-  const Kinematics kin = kinematics(fish, random_state(random, fish, 0.3));
-  Matrix6Xd wrench = Matrix6Xd::Zero(6, 100);
-  wrench.col(40) = random_entries(random, 6);
-  const Eigen::VectorXd force = generalised_force(fish, kin, wrench);
-  const int behind = fish.bodies[41].first_dof;
-  for (int k = 0; k < fish.nv(); ++k) {
-    EXPECT_EQ(force[k] == 0, k >= behind) << k;  // exactly
   }
 }
 

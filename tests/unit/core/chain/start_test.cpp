@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
@@ -111,16 +110,6 @@ TEST(Start, NoiseIsNormalSeededAndWithinLimits) {
   EXPECT_EQ(state.q, start_state(fish, settings).q);
   settings.seed = 2;
   EXPECT_NE(state.q, start_state(fish, settings).q);
-}
-
-TEST(Start, TheSimulationBeginsThere) {
-  ResolvedScene resolved = stored_scene({"clamp_head=false"});
-  resolved.scene.start.spin = {1, 2, 3};
-  resolved.scene.start.phase = Phase::free;
-  const Simulation sim =
-      start(make_hagfish(resolved.specimen, resolved.scene), resolved.scene, "active-set");
-  EXPECT_EQ(sim.now.state.qdot.segment<3>(3), Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(sim.controller.phase, Phase::free);
 }
 
 }  // namespace hagfish::start_test

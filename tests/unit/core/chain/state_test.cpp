@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/support/random_chain.hpp"
 
 namespace hagfish::state_test {
@@ -59,21 +57,6 @@ TEST(State, ConstantBodyRateTurnsExactly) {
     }
     EXPECT_LT(relative_error(root_orientation(state.q).toRotationMatrix(), expected), 1e-12);
   }
-}
-
-TEST(State, RateTurnsAboutTheBodysOwnAxes) {
-  // Turned by 90 degrees about world Z, body X is world Y: a body rate about X turns about Y.
-  Model model;
-  append_body(model, {}, {});
-  State state = rest_state(model);
-  state.q.segment<4>(3) << std::sqrt(0.5), 0, 0, std::sqrt(0.5);
-  state.qdot[3] = 0.3;
-  const Eigen::Matrix3d turned =
-      root_orientation(advance(state.q, state.qdot, 1)).toRotationMatrix();
-  const Eigen::Matrix3d expected =
-      Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()).toRotationMatrix() *
-      root_orientation(state.q).toRotationMatrix();
-  EXPECT_LT(relative_error(turned, expected), 1e-15);
 }
 
 }  // namespace hagfish::state_test

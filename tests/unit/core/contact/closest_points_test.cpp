@@ -125,9 +125,15 @@ std::vector<Pair> pairs_of(Pair (*make)(Random&, bool), unsigned seed, int count
   return pairs;
 }
 
-TEST(ClosestPoints, OfCrossingLinesAreExact) {
+/// Four bodies of one girth, along which a spline has one whole segment.
+Model four_bodies() {
   Model four;
   for (int b = 0; b < 4; ++b) append_body(four, {0, 1, 0.25, {}}, {});
+  return four;
+}
+
+TEST(ClosestPoints, OfCrossingLinesAreExact) {
+  const Model four = four_bodies();
   Eigen::Matrix3Xd x(3, 4);
   Eigen::Matrix3Xd y(3, 4);
   x << -1.2, -0.2, 0.8, 1.8, 0, 0, 0, 0, 0, 0, 0, 0;
@@ -139,8 +145,7 @@ TEST(ClosestPoints, OfCrossingLinesAreExact) {
 }
 
 TEST(ClosestPoints, MayLieOnTheEnds) {
-  Model four;
-  for (int b = 0; b < 4; ++b) append_body(four, {0, 1, 0.25, {}}, {});
+  const Model four = four_bodies();
   Eigen::Matrix3Xd x(3, 4);
   x << -1, 0, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0;
   const Eigen::Matrix3Xd y = x.colwise() + Eigen::Vector3d(1.5, 2, 0);
@@ -151,8 +156,7 @@ TEST(ClosestPoints, MayLieOnTheEnds) {
 }
 
 TEST(ClosestPoints, OfCentrelinesThatCrossAreFinite) {
-  Model four;
-  for (int b = 0; b < 4; ++b) append_body(four, {0, 1, 0.25, {}}, {});
+  const Model four = four_bodies();
   Eigen::Matrix3Xd x(3, 4);
   x << -1, 0, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0;
   Eigen::Matrix3Xd y = Eigen::Matrix3Xd::Zero(3, 4);

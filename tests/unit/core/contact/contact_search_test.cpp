@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"

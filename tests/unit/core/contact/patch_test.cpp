@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/contact/ends.hpp"
@@ -27,15 +28,7 @@ TouchingEnds ends_of(const std::vector<SplineSegment>& segments, const Scene& sc
 TEST(ContactPatch, OfCrossingLegsIsInTheirMiddleWhereItIsAllThatTouches) {
   Model fish = table1_hagfish();
   for (Body& body : fish.bodies) body.radius = 0.85;
-  Eigen::Matrix3Xd centre(3, 100);
-  for (int b = 0; b < 100; ++b) {
-    if (b < 50) {
-      centre.col(b) << 0.424 * (b - 25), 0, 0;
-    } else {
-      centre.col(b) << 0, 0.424 * (b - 75), 1.72;
-    }
-  }
-  const std::vector<SplineSegment> segments = spline(fish, centre);
+  const std::vector<SplineSegment> segments = crossing_legs(fish, 0, 1.72);
   const Scene scene = scene_of(10);  // more than there is
   const TouchingEnds ends = ends_of(segments, scene);
   ASSERT_TRUE(ends.first && ends.last);
@@ -85,16 +78,16 @@ TEST(ContactPatch, MovesAsTheBodyDoesWhereItsPointJumps) {
   EXPECT_LT(move, 0.1);
 }
 
-TEST(ContactPatch, SettlesAsBodiesBecomeMore) {
-  const Scene scene = scene_of(0.2);
-  std::vector<double> first, last;
+// Ends of the knot as means over a patch, and as the outermost points.
+TEST(ContactPatch, EndsSettleAsBodiesBecomeMore) {
+  std::array<std::vector<double>, 4> arcs;
   for (const int bodies : {50, 100, 200, 400}) {
-    const TouchingEnds ends = ends_of(trefoil(table1_hagfish(bodies), 2.4), scene);
+    const TouchingEnds ends = ends_of(trefoil(table1_hagfish(bodies), 2.4), scene_of(0.2));
     ASSERT_TRUE(ends.first && ends.last);
-    first.push_back(ends.head_end);
-    last.push_back(ends.tail_end);
+    const double found[] = {ends.head_end, ends.tail_end, ends.first->arc_a, ends.last->arc_b};
+    for (std::size_t k = 0; k < arcs.size(); ++k) arcs[k].push_back(found[k]);
   }
-  for (const std::vector<double>& arc : {first, last}) {
+  for (const std::vector<double>& arc : arcs) {
     EXPECT_LT(std::abs(arc[2] - arc[3]), 0.5 * std::abs(arc[1] - arc[3]) + 1e-3);
     EXPECT_LT(std::abs(arc[1] - arc[3]), 0.05);
   }

@@ -137,15 +137,6 @@ TEST_F(ControlLaws, KnotSpeedSettlesAtItsTarget) {
   EXPECT_EQ(step({contact(arc, 35)}).thigmotaxis.at(0).speed.a, 0);
 }
 
-TEST_F(ControlLaws, AMemoryOfAnotherLawIsForgotten) {
-  scene.controller.law = "knot_speed";
-  scene.controller.knot_speed = {2, 1, 0.1, 2};
-  state.memory = Eigen::VectorXd::Constant(1, 77);
-  step({contact(5, 30)});
-  ASSERT_EQ(state.memory.size(), 2);
-  EXPECT_NEAR(state.memory[1], 1, 0.01);
-}
-
 TEST_F(ControlLaws, KnotSpeedIsMeasuredByTheShortestFilter) {
   scene.controller.law = "knot_speed";
   scene.controller.release_at = 0.1;

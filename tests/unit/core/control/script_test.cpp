@@ -6,8 +6,9 @@
 
 namespace hagfish::script_test {
 
-TimeSettings steps_of(double h) {
+TimeSettings steps_of(double h, TimeRule rule = TimeRule::euler) {
   TimeSettings time;
+  time.rule = rule;
   time.step = h;
   return time;
 }
@@ -106,38 +107,30 @@ TEST(ScriptForce, IsNoneWithoutAScript) {
   EXPECT_EQ(tip.rate, 0);
 }
 
-TEST(ScriptForce, OfForcesIsTheValueNow) {
-  const TipForce tip = script_force(force, 1.1, steps_of(0.002), {1, 2, 3}, {4, 5, 6});
-  EXPECT_EQ(tip.value, script_value(force, 1.1));
-  EXPECT_EQ(tip.rate, 0);
-}
-
-TEST(ScriptForce, OfPositionsIsASpringDamperAtTheEndOfTheStep) {
+// At a step's end by Euler's rule, in its middle by the other; forces by Euler's rule are those of
+// now.
+TEST(ScriptForce, ActsWhereTheRuleHasItsForces) {
   const double h = 0.002;
-  const Vector3d at = script_value(position, 1.1) + Vector3d(0.1, 0, -0.05);
-  const TipForce tip = script_force(position, 1.1, steps_of(h), at, {1, 2, 0});
-  // With the end velocity w the force shall be kp (target(t + h) - at - h w) - kd w.
-  const Vector3d w(0.7, -0.3, 2);
-  const Vector3d expected = 3000 * (script_value(position, 1.1 + h) - at - h * w) - 20 * w;
-  EXPECT_LT((tip.value - tip.rate * w - expected).norm(), 1000 * rounding);
-}
-
-TEST(ScriptForce, OfTheMidpointRuleActsInTheMiddle) {
-  const double h = 0.002;
-  TimeSettings time = steps_of(h);
-  time.rule = TimeRule::midpoint;
-  EXPECT_EQ(script_force(force, 1.1, time, {}, {}).value, script_value(force, 1.1 + h / 2));
-  const Vector3d at = script_value(position, 1.1) + Vector3d(0.1, 0, -0.05);
-  const TipForce tip = script_force(position, 1.1, time, at, {1, 2, 0});
-  const Vector3d w(0.7, -0.3, 2);
-  const Vector3d expected = 3000 * (script_value(position, 1.1 + h / 2) - at - h / 2 * w) - 20 * w;
-  EXPECT_LT((tip.value - tip.rate * w - expected).norm(), 1000 * rounding);
+  for (const TimeRule rule : {TimeRule::euler, TimeRule::midpoint}) {
+    const bool euler = rule == TimeRule::euler;
+    const TimeSettings time = steps_of(h, rule);
+    const TipForce pull = script_force(force, 1.1, time, {1, 2, 3}, {4, 5, 6});
+    EXPECT_EQ(pull.value, script_value(force, euler ? 1.1 : 1.1 + h / 2));
+    EXPECT_EQ(pull.rate, 0);
+    const Vector3d at = script_value(position, 1.1) + Vector3d(0.1, 0, -0.05);
+    const TipForce tip = script_force(position, 1.1, time, at, {1, 2, 0});
+    // With the velocity w there the force shall be kp (target(t + ahead) - at - ahead w) - kd w.
+    const Vector3d w(0.7, -0.3, 2);
+    const double ahead = euler ? h : h / 2;
+    const Vector3d expected =
+        3000 * (script_value(position, 1.1 + ahead) - at - ahead * w) - 20 * w;
+    EXPECT_LT((tip.value - tip.rate * w - expected).norm(), 1000 * rounding);
+  }
 }
 
 TEST(ScriptForce, OfTheMidpointRuleDampsASpringThatWouldRing) {
   const double h = 0.002;
-  TimeSettings time = steps_of(h);
-  time.rule = TimeRule::midpoint;
+  const TimeSettings time = steps_of(h, TimeRule::midpoint);
   ScriptSettings stiff = position;
   stiff.spring = 1e6;
   stiff.largest_force = 1e9;

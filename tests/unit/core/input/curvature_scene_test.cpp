@@ -96,34 +96,30 @@ TEST(CurvatureScene, TellsWhatIsWrong) {
   };
   EXPECT_EQ(complaint("[script]\nkind = 'curvature'\n" + active),
             "s.toml: script.curvature: times is missing");
-  EXPECT_EQ(complaint(table + active, {"script.program=p.csv"}),
-            "s.toml: --set script.program=p.csv: script.curvature is also given; give "
-            "only one");
+  expect_set_refused("script.program=p.csv", "script.curvature is also given; give only one",
+                     table + active);
   EXPECT_EQ(complaint("[script]\nkind = 'curvature'\nprogram = 'gone.csv'\n" + active),
             "s.toml:3: script.program = 'gone.csv': no such built-in file");
-  EXPECT_EQ(complaint("[script]\nkind = 'curvature'\n" + active, {"script.program=gone.csv"}),
-            "s.toml: --set script.program=gone.csv: gone.csv: no such file");
-  EXPECT_EQ(complaint(table + active, {"script.curvature.times=[0, 0]"}),
-            "s.toml: --set script.curvature.times=[0, 0]: must rise; number 2 does not");
-  EXPECT_EQ(
-      complaint(table + active, {"script.curvature.times=[1, 2]"}),
-      "s.toml: --set script.curvature.times=[1, 2]: must have two times or more, the first 0");
-  EXPECT_EQ(complaint(table + active, {"script.curvature.stations=[0, 0.6, 0.5]"}),
-            "s.toml: --set script.curvature.stations=[0, 0.6, 0.5]: must rise; number 3 does not");
-  EXPECT_EQ(complaint(table + active, {"script.curvature.stations=[0, 2]"}),
-            "s.toml: --set script.curvature.stations=[0, 2]: number 2 must be from 0 to 1");
-  EXPECT_EQ(complaint(table + active, {"script.curvature.twist=[1]"}),
-            "s.toml: --set script.curvature.twist=[1]: must have times x stations values, 6");
+  expect_set_refused("script.program=gone.csv", "gone.csv: no such file",
+                     "[script]\nkind = 'curvature'\n" + active);
+  expect_set_refused("script.curvature.times=[0, 0]", "must rise; number 2 does not",
+                     table + active);
+  expect_set_refused("script.curvature.times=[1, 2]", "must have two times or more, the first 0",
+                     table + active);
+  expect_set_refused("script.curvature.stations=[0, 0.6, 0.5]", "must rise; number 3 does not",
+                     table + active);
+  expect_set_refused("script.curvature.stations=[0, 2]", "number 2 must be from 0 to 1",
+                     table + active);
+  expect_set_refused("script.curvature.twist=[1]", "must have times x stations values, 6",
+                     table + active);
   EXPECT_EQ(complaint(table),
             "s.toml: active.stiffness: must be positive where a curvature "
             "program bends the animal");
-  EXPECT_EQ(complaint(table + active, {"active.stiffness=-1"}),
-            "s.toml: --set active.stiffness=-1: must not be negative");
-  EXPECT_EQ(complaint(table + active, {"active.capacity=0"}),
-            "s.toml: --set active.capacity=0: must be positive where a curvature program bends the "
-            "animal");
-  EXPECT_EQ(complaint(table + active, {"controller.tighten_from=3"}),
-            "s.toml: --set controller.tighten_from=3: the curvature program ends earlier, at 2 s");
+  expect_set_refused("active.stiffness=-1", "must not be negative", table + active);
+  expect_set_refused("active.capacity=0",
+                     "must be positive where a curvature program bends the animal", table + active);
+  expect_set_refused("controller.tighten_from=3", "the curvature program ends earlier, at 2 s",
+                     table + active);
   EXPECT_EQ(complaint("[model]\npassive = 'specimen'\n"),
             "s.toml:2: model.passive = 'specimen': the specimen has no passive.bending_stiffness");
 }

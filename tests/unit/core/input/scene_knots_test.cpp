@@ -95,16 +95,12 @@ TEST(SceneKnots, RefusesBadExpectations) {
                   "', 9]: a time must be in s, a phase as in \"release\", later as in "
                   "\"free + 0.5\", or \"end\"");
   }
-  EXPECT_EQ(scene_complaint("[expect]\nhand = 'both'\n"),
-            "s.toml:2: expect.hand = 'both': must be one of \"any\", \"right\", \"left\"");
-  EXPECT_EQ(scene_complaint("[controller]\nfree_from = 'form'\n"),
-            "s.toml:2: controller.free_from = 'form': must be one of \"tighten\", \"slide\", "
-            "\"release\", \"free\"");
-  EXPECT_EQ(scene_complaint("mirror = 1\n"), "s.toml:1: mirror = 1: must be true or false");
-  EXPECT_EQ(scene_complaint("[constraints]\nstride = 1e-9\n"),
-            "s.toml:2: constraints.stride = 1e-9: must be at least 0.001");
-  EXPECT_EQ(scene_complaint("[script]\nnoise = -1\n"),
-            "s.toml:2: script.noise = -1: must not be negative");
+  expect_refused("expect", "hand = 'both'", "must be one of \"any\", \"right\", \"left\"");
+  expect_refused("controller", "free_from = 'form'",
+                 "must be one of \"tighten\", \"slide\", \"release\", \"free\"");
+  expect_refused("", "mirror = 1", "must be true or false");
+  expect_refused("constraints", "stride = 1e-9", "must be at least 0.001");
+  expect_refused("script", "noise = -1", "must not be negative");
 }
 
 }  // namespace hagfish::scene_knots_test

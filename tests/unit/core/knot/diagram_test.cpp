@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 

@@ -2,27 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "core/knot/knot.hpp"
-#include "tests/support/knot_curves.hpp"
 
 namespace hagfish::knot_name_test {
 
 constexpr KnotInvariants unknot{1, 0};
-
-TEST(KnotName, NamesOfSixAndSevenCrossingsAreThoseOfTheirBraids) {
-  const struct {
-    const char* name;
-    std::vector<int> braid;
-    int strands;
-  } table[] = {{"6_1", {1, 1, 2, -1, -3, 2, -3}, 4},  {"6_2", {-1, -1, -1, 2, -1, 2}, 3},
-               {"6_3", {-1, -1, 2, -1, 2, 2}, 3},     {"7_1", {1, 1, 1, 1, 1, 1, 1}, 2},
-               {"7_3", {1, 1, 1, 1, 1, 2, -1, 2}, 3}, {"7_5", {1, 1, 1, 1, 2, -1, 2, 2}, 3},
-               {"7_7", {1, -2, 1, -2, 3, -2, 3}, 4}};
-  for (const auto& entry : table) {
-    const KnotInvariants type =
-        invariants_of_closed(braid_closure(entry.braid, entry.strands), {0.1, 0.2, 1});
-    EXPECT_EQ(knot_name(type), entry.name);
-  }
-}
 
 TEST(KnotName, TypeOfANameIsTheOneThatHasIt) {
   for (const KnotInvariants type : {unknot, KnotInvariants{3, 1}, KnotInvariants{5, -1},

@@ -87,11 +87,6 @@ TEST_P(NamedKnots, OpenCurveIsUnanimous) {
   }
 }
 
-TEST_P(NamedKnots, OpenCurveKeepsItsTypeReversed) {
-  const Eigen::Matrix3Xd reversed = opened(polygon()).rowwise().reverse();
-  EXPECT_EQ(knot_type(reversed, {.votes = 15, .seed = 3}).type, type());
-}
-
 TEST_P(NamedKnots, InvariantUnderRotationOrderStartAndScale) {
   const Eigen::Vector3d sight(0.3, 0.2, 0.9);
   for (int k = 0; k < 20; ++k) {

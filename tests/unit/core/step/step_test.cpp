@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/step_stage.hpp"
@@ -183,20 +181,6 @@ TEST(Step, ClampTakesADriftBack) {
   s.state.q = advance(s.state.q, step.qdot, s.scene.time.step);
   // A share of 0.5 of both; the sine of a turn of 1e-3 is off by 1e-7 of it.
   EXPECT_NEAR(head_drift(s.model, kinematics(s.model, s.state)) / start, 0.5, 1e-5);
-}
-
-TEST(Step, CapsThigmotaxisForces) {
-  Stage s = knotted(103, 0);
-  for (ThigmotaxisCommand& command : s.control.thigmotaxis) command.speed = {1e4, 1e4};
-  const StepSolution step = s.solve();
-  double largest = 0;
-  for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    if (step.rows[i].kind == RowKind::thigmotaxis) {
-      largest = std::max(largest, step.lambda[static_cast<Eigen::Index>(i)] / s.scene.time.step);
-    }
-  }
-  EXPECT_LE(largest, 5000);
-  EXPECT_GT(largest, 4999);
 }
 
 }  // namespace hagfish::step_test

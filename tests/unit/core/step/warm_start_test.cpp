@@ -45,17 +45,6 @@ TEST(WarmStart, FindsRowsByIdInWhateverOrderTheyCame) {
   }
 }
 
-TEST(WarmStart, KeepsTheLastStepAlone) {
-  WarmStart warm;
-  leave(warm, {{id_of(2), 1}, {id_of(4), 3}});
-  leave(warm, {{id_of(4), 5}});
-  EXPECT_EQ(warm.size(), 1u);
-  EXPECT_EQ(warm.multiplier(id_of(4)), 5);
-  EXPECT_EQ(warm.find(id_of(2)), nullptr);
-  leave(warm, {});
-  EXPECT_EQ(warm.size(), 0u);
-}
-
 TEST(WarmStart, FollowsManyRowsOverManySteps) {
   Random random(1);
   WarmStart warm;

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "experiments/audit/audit.hpp"
 #include "tests/support/muscled_hagfish.hpp"
 #include "tests/support/stored_states.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -31,16 +30,12 @@ class AuditActivation : public testing::TestWithParam<std::string> {
   /// What the audit says while one entry of the fifth frame or so, larger than `least`, is changed.
   template <class Change>
   std::string objections_to(const std::string& path, double least, Change change) {
-    const auto before = rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, [&](auto& values) {
+    return objections_while(file, path, [&](std::vector<double>& values) {
       const auto found = std::find_if(values.begin() + values.size() / 3, values.end(),
                                       [&](double v) { return std::abs(v) > least; });
       ASSERT_NE(found, values.end()) << path;
       *found = change(*found);
     });
-    const std::string text = objections();
-    rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE,
-                    [&](auto& values) { values = before; });
-    return text;
   }
 
   TemporaryFolder folder;

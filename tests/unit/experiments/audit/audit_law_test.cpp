@@ -4,9 +4,7 @@
 
 #include <filesystem>
 #include <map>
-#include <memory>
 
-#include "experiments/audit/audit.hpp"
 #include "tests/support/stored_states.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
@@ -54,14 +52,11 @@ class AuditLaw : public testing::Test {
                             const std::function<T(T)>& change) {
     const auto type =
         std::is_same_v<T, double> ? H5::PredType::NATIVE_DOUBLE : H5::PredType::NATIVE_INT64;
-    const auto before = rewrite<T>(file, path, type, [&](std::vector<T>& values) {
+    return objections_while<T>(file, path, type, [&](std::vector<T>& values) {
       const auto found = std::find_if(values.begin() + values.size() / 3, values.end(), which);
       ASSERT_NE(found, values.end()) << path;
       *found = change(*found);
     });
-    const std::string text = objections();
-    rewrite<T>(file, path, type, [&](std::vector<T>& values) { values = before; });
-    return text;
   }
 
   TemporaryFolder folder;
@@ -88,12 +83,9 @@ TEST_F(AuditLaw, OfTheRunsOwnEachFigureIsWatched) {
   const std::string command =
       objections_to<double>("/eq6/command", some, [](double v) { return 50 * std::abs(v); });
   EXPECT_NE(command.find("thigmotaxis as asked"), std::string::npos) << command;
-  const auto bounds = rewrite<double>(file, "/eq6/cap", H5::PredType::NATIVE_DOUBLE,
-                                      [](std::vector<double>& v) { v.assign(v.size(), 1e-3); });
-  const std::string cap = objections();
+  const std::string cap =
+      objections_while(file, "/eq6/cap", [](std::vector<double>& v) { v.assign(v.size(), 1e-3); });
   EXPECT_NE(cap.find("thigmotaxis cap"), std::string::npos) << cap;
-  rewrite<double>(file, "/eq6/cap", H5::PredType::NATIVE_DOUBLE,
-                  [&](std::vector<double>& v) { v = bounds; });
 
   using Whole = std::int64_t;
   const std::function<bool(Whole)> any = [](Whole) { return true; };

@@ -2,14 +2,11 @@
 // goes red when it is false.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "core/input/files/scene_reader.hpp"
-#include "core/log/hdf5/hdf5_error.hpp"
-#include "experiments/audit/audit.hpp"
 #include "experiments/audit/logged_contacts.hpp"
 #include "tests/support/stored_states.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -26,23 +23,13 @@ class AuditObstacles : public testing::Test {
                                   "expect.energy_loss=0.2",  // of so short a log with long steps
                                   "expect.knot=", "expect.types=[]", "expect.slide_distance=0"}));
   }
-  std::string objections() const {
-    try {
-      return audit_objections(file);
-    } catch (const FileError& error) {
-      return error.what();
-    }
-  }
   template <class T>
   std::string objections_to(const std::string& path, const H5::DataType& type,
                             const std::function<T(T)>& change) {
-    const auto before = rewrite<T>(file, path, type, [&](std::vector<T>& values) {
+    return objections_while<T>(file, path, type, [&](std::vector<T>& values) {
       ASSERT_FALSE(values.empty());
       for (T& value : values) value = change(value);
     });
-    const std::string text = objections();
-    rewrite<T>(file, path, type, [&](std::vector<T>& values) { values = before; });
-    return text;
   }
 
   TemporaryFolder folder;
@@ -50,7 +37,7 @@ class AuditObstacles : public testing::Test {
 };
 
 TEST_F(AuditObstacles, EachFigureIsWatched) {
-  EXPECT_EQ(objections(), "");
+  EXPECT_EQ(audit_objections(file), "");
   int pressed = 0;
   for (const LoggedContact& contact : logged_contacts(LogContents(file.string()))) {
     pressed += contact.obstacle == 1;

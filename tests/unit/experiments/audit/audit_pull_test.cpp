@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <limits>
 #include <memory>
 
-#include "experiments/audit/audit.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 

@@ -84,14 +84,7 @@ TEST_F(AuditTest, MujocoMissesAForceThatWasChanged) {
 }
 
 TEST_F(AuditTest, RefusesAModelThatIsNotTheScenes) {
-  const auto refusal = [this] {
-    try {
-      audit(file);
-    } catch (const FileError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
-  };
+  const auto refusal = [this] { return audit_objections(file); };
   tamper("/model/mass", 17, 0.25);
   EXPECT_EQ(refusal().rfind(file.string() + ": /model/mass of body 17 is ", 0), 0u) << refusal();
   tamper("/model/mass", 17, -0.25);
@@ -122,14 +115,8 @@ TEST_F(AuditOfCones, SeesABendPastItsCone) {
 
 TEST_F(AuditOfCones, RefusesALogOfOtherCones) {
   tamper("/model/bending_limit", 5, 0.25);
-  try {
-    audit(file);
-    ADD_FAILURE();
-  } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("/model/bending_limit of joint 5 is "),
-              std::string::npos)
-        << error.what();
-  }
+  const std::string refusal = audit_objections(file);
+  EXPECT_NE(refusal.find("/model/bending_limit of joint 5 is "), std::string::npos) << refusal;
 }
 
 /// A bent body released in open water: no row has a force.
@@ -201,13 +188,6 @@ TEST(LastLoaded, IsTheLastBodyThatRowsLoad) {
   }
 }
 
-TEST_F(AuditTest, DoesNotLetNanPass) {
-  tamper("/forces/contact", 30, NAN);
-  tamper("/diagnostics/work_tip", 1, NAN);
-  EXPECT_FALSE(passes("force balance"));
-  EXPECT_FALSE(passes("energy ledger"));
-}
-
 TEST_F(AuditTest, RefusesALogThatDoesNotFitItsModel) {
   H5::H5File h5(file.string(), H5F_ACC_RDWR);
   h5.unlink("/trajectory/q");
@@ -216,20 +196,20 @@ TEST_F(AuditTest, RefusesALogThatDoesNotFitItsModel) {
   EXPECT_THROW(audit(file), FileError);
 }
 
-TEST_F(AuditTest, SeesABentLimit) {
-  tamper("/trajectory/q", 7 + 20, 0.5);
-  EXPECT_FALSE(passes("limits"));
-}
-
-TEST_F(AuditTest, SeesDriftPenetrationResidualAndEnergy) {
-  tamper("/steps/head_drift", 3, 1e-3);
-  tamper("/steps/penetration", 3, 0.1);
-  tamper("/steps/kkt", 3, 1e-6);
-  tamper("/diagnostics/work_tip", 2, 50);
-  EXPECT_FALSE(passes("head drift"));
-  EXPECT_FALSE(passes("penetration"));
-  EXPECT_FALSE(passes("KKT residual"));
-  EXPECT_FALSE(passes("energy ledger"));
+TEST_F(AuditTest, SeesEachFigureThatWasChanged) {
+  const std::tuple<const char*, std::size_t, double, const char*> changes[] = {
+      {"/steps/head_drift", 3, 1e-3, "head drift"},
+      {"/steps/penetration", 3, 0.1, "penetration"},
+      {"/steps/kkt", 3, 1e-6, "KKT residual"},
+      {"/diagnostics/work_tip", 2, 50, "energy ledger"},
+      {"/diagnostics/kinetic_energy", 2, 1e6, "energy gain"},  // erg; the bent body holds some 1e5
+      {"/trajectory/q", 7 + 20, 0.5, "limits"},
+      {"/forces/contact", 30, NAN, "force balance"},
+      {"/diagnostics/work_tip", 1, NAN, "energy ledger"}};
+  for (const auto& [path, index, change, finding] : changes) {
+    tamper(path, index, change);
+    EXPECT_FALSE(passes(finding)) << path;
+  }
 }
 
 TEST_F(AuditTest, SeesAKnotThatCameUndone) {
@@ -258,11 +238,6 @@ TEST_F(AuditTest, SeesTheMirrorImageOfTheKnotExpected) {
   }
   EXPECT_TRUE(passes("knot held"));
   EXPECT_FALSE(passes("hand"));
-}
-
-TEST_F(AuditTest, SeesEnergyOutOfNothing) {
-  tamper("/diagnostics/kinetic_energy", 2, 1e6);  // erg; the bent body holds some 1e5
-  EXPECT_FALSE(passes("energy gain"));
 }
 
 }  // namespace hagfish::audit_test

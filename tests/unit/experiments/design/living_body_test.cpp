@@ -8,7 +8,6 @@
 #include <numeric>
 #include <set>
 
-#include "core/input/files/text_file.hpp"
 #include "experiments/common/specimen_files.hpp"
 
 namespace hagfish::living_body_test {

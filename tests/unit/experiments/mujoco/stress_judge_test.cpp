@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish::stress_judge_test {

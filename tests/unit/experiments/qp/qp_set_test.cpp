@@ -125,75 +125,61 @@ TEST_F(QpSetTest, ReadsWhatOthersWrite) {
   EXPECT_EQ(bilateral.start[0], 6);
 }
 
+/// Spoils a set: one of its datasets is other numbers, a matrix where it has `rows`; or is gone.
+using Numbers = std::vector<double>;
+auto replaced(const char* name, const Numbers& values) {
+  return [=](ForeignQps& s) { s.replace(name, values); };
+}
+auto replaced(const char* name, hsize_t rows, const Numbers& values) {
+  return [=](ForeignQps& s) { s.replace(name, rows, values, values.size() / rows); };
+}
+auto added(const char* name, const Numbers& values) {
+  return [=](ForeignQps& s) { s.vector(name, values); };
+}
+auto gone(const std::string& name) {
+  return [=](ForeignQps& s) { s.h5().unlink("/qp/0/" + name); };
+}
+
 TEST_F(QpSetTest, RefusesBadPrimalProblems) {
   const double nan = std::nan("");
   const auto refused = [&](const std::function<void(ForeignQps&)>& spoil, const char* reason) {
     expect_refused(put_primal, spoil, reason);
   };
-  refused([](ForeignQps& s) { s.h5().unlink("/qp/0/C"); }, "has no C");
-  refused([](ForeignQps& s) { s.h5().unlink("/qp/0/d"); }, "has no d");
-  refused([](ForeignQps& s) { s.vector("e", {1}); }, "has no G");
+  refused(gone("C"), "has no C");
+  refused(gone("d"), "has no d");
+  refused(added("e", {1}), "has no G");
   refused([](ForeignQps& s) { s.matrix("G", 1, {1, 1}, 2); }, "has no e");
-  refused([](ForeignQps& s) { s.replace("g", {}); }, "g is empty");
-  refused([](ForeignQps& s) { s.replace("g", {1, 2, 3}); }, "H is 2 x 2, not 3 x 3");
-  refused([](ForeignQps& s) { s.replace("C", 2, {1, 2, 3, 4, 5, 6}, 3); }, "C is 2 x 3, not 2 x 2");
-  refused([](ForeignQps& s) { s.replace("d", {1}); }, "C is 2 x 2, not 1 x 2");
-  refused([](ForeignQps& s) { s.replace("d", 2, {1, 2}, 1); }, "d is 2 x 1, not a vector");
-  refused([](ForeignQps& s) { s.vector("start", {1}); }, "start is 1, not a vector of 2");
-  refused(
-      [&](ForeignQps& s) {
-        s.replace("H", 2, {1, 0, 0, nan}, 2);
-      },
-      "H has entries that are not finite");
-  refused([&](ForeignQps& s) { s.replace("g", {1, nan}); }, "g has entries that are not finite");
-  refused(
-      [&](ForeignQps& s) {
-        s.replace("C", 2, {1, 1, 1, nan}, 2);
-      },
-      "C has entries that are not finite");
-  refused(
-      [&](ForeignQps& s) {
-        s.replace("d", {1, -INFINITY});
-      },
-      "d has entries that are not finite");
-  refused(
-      [&](ForeignQps& s) {
-        s.vector("start", {1, nan});
-      },
-      "start has entries that are not finite");
-  refused([](ForeignQps& s) { s.replace("H", 2, {2, 1, 0, 2}, 2); }, "H is not symmetric");
-  refused([](ForeignQps& s) { s.replace("H", 2, {1, 2, 2, 1}, 2); }, "H is not positive definite");
-  refused(
-      [](ForeignQps& s) {
-        s.replace("C", 2, {1e200, 0, 0, 1}, 2);
-      },
-      "C H⁻¹ C' or C H⁻¹ g overflows");
-  refused([](ForeignQps& s) { s.h5().unlink("/qp/0/H"); },
-          "must have either H (with g, C, d) or A (with b, l, u)");
-  refused([](ForeignQps& s) { s.matrix("A", 1, {1}, 1); },
-          "must have either H (with g, C, d) or A (with b, l, u)");
+  refused(replaced("g", {}), "g is empty");
+  refused(replaced("g", {1, 2, 3}), "H is 2 x 2, not 3 x 3");
+  refused(replaced("C", 2, {1, 2, 3, 4, 5, 6}), "C is 2 x 3, not 2 x 2");
+  refused(replaced("d", {1}), "C is 2 x 2, not 1 x 2");
+  refused(replaced("d", 2, {1, 2}), "d is 2 x 1, not a vector");
+  refused(added("start", {1}), "start is 1, not a vector of 2");
+  refused(replaced("H", 2, {1, 0, 0, nan}), "H has entries that are not finite");
+  refused(replaced("g", {1, nan}), "g has entries that are not finite");
+  refused(replaced("C", 2, {1, 1, 1, nan}), "C has entries that are not finite");
+  refused(replaced("d", {1, -INFINITY}), "d has entries that are not finite");
+  refused(added("start", {1, nan}), "start has entries that are not finite");
+  refused(replaced("H", 2, {2, 1, 0, 2}), "H is not symmetric");
+  refused(replaced("H", 2, {1, 2, 2, 1}), "H is not positive definite");
+  refused(replaced("C", 2, {1e200, 0, 0, 1}), "C H⁻¹ C' or C H⁻¹ g overflows");
+  const char* either = "must have either H (with g, C, d) or A (with b, l, u)";
+  refused(gone("H"), either);
+  refused([](ForeignQps& s) { s.matrix("A", 1, {1}, 1); }, either);
 }
 
 TEST_F(QpSetTest, RefusesBadBoxProblems) {
   const auto refused = [&](const std::function<void(ForeignQps&)>& spoil, const char* reason) {
     expect_refused(put_box, spoil, reason);
   };
-  refused([](ForeignQps& s) { s.h5().unlink("/qp/0/b"); }, "has no b");
-  refused([](ForeignQps& s) { s.replace("l", {0}); }, "l is 1, not a vector of 2");
-  refused([](ForeignQps& s) { s.replace("b", {1, 2, 3}); }, "A is 2 x 2, not 3 x 3");
-  refused(
-      [](ForeignQps& s) {
-        s.replace("b", {INFINITY, 1});
-      },
-      "b has entries that are not finite");
-  refused([](ForeignQps& s) { s.replace("l", {1, 0}); }, "l <= 0 <= u does not hold");
-  refused([](ForeignQps& s) { s.replace("u", {std::nan(""), 1}); }, "l <= 0 <= u does not hold");
-  refused([](ForeignQps& s) { s.replace("A", 2, {2, 1, 0, 2}, 2); }, "A is not symmetric");
-  refused(
-      [](ForeignQps& s) {
-        s.replace("A", 2, {1, 2, 2, 1}, 2);
-      },
-      "A is not positive semidefinite");
+  refused(gone("b"), "has no b");
+  refused(replaced("l", {0}), "l is 1, not a vector of 2");
+  refused(replaced("b", {1, 2, 3}), "A is 2 x 2, not 3 x 3");
+  refused(replaced("b", {INFINITY, 1}), "b has entries that are not finite");
+  refused(replaced("l", {1, 0}), "l <= 0 <= u does not hold");
+  refused(replaced("u", {std::nan(""), 1}), "l <= 0 <= u does not hold");
+  refused(replaced("A", 2, {2, 1, 0, 2}), "A is not symmetric");
+  refused(replaced("A", 2, {1, 2, 2, 1}), "A is not positive semidefinite");
 }
 
 TEST_F(QpSetTest, RefusesWhatIsNoSet) {

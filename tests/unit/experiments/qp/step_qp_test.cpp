@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"

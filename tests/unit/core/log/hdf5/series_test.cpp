@@ -192,12 +192,6 @@ TEST_F(SeriesTest, RefusesRowsOfAnotherSize) {
   EXPECT_THROW(dense.append(1.0), std::logic_error);
 }
 
-TEST_F(SeriesTest, UnitDescriptionAndNamesAreStored) {
-  const Hdf5Reader in(file);
-  EXPECT_EQ(in.attribute("/a/b/sparse", "unit"), "dyn");
-  EXPECT_EQ(in.attribute("/a/b/sparse", "description"), "compressed");
-}
-
 // A row of two axes would be told to be zero by its last axis alone, and left out.
 TEST(SeriesLayout, BlocksAreOfRowsOfOneAxis) {
   const Meaning blocks{"1", "", Storage::blocks};

@@ -54,6 +54,21 @@ struct Knotted {
   std::vector<Row> rows;
 };
 
+/// The problem of `rows` where velocities are prescribed; `base` is the velocity without the rows.
+BoxQp dual_with(const Knotted& k, const std::vector<PrescribedVelocity>& prescribed,
+                const std::vector<Row>& rows, Eigen::VectorXd& base) {
+  ArticulatedFactor factor;
+  factor.factorise(k.model, k.kin, k.system.op, prescribed);
+  Eigen::VectorXd reaction;
+  Matrix6Xd twist;
+  factor.solve(k.model, k.kin, k.system.wrench, k.system.joint, base, twist, reaction);
+  RowColumns columns;
+  BoxQp qp;
+  assemble_dual(k.model, k.kin, factor, rows, base, {twist, centre_velocities(k.kin, twist)},
+                columns, qp);
+  return qp;
+}
+
 TEST(DualProblem, IsTheDenseOneOfAllRows) {
   const Knotted k;
   std::set<RowKind> kinds;
@@ -107,15 +122,8 @@ TEST(DualProblem, PrescribedVelocitiesDoNotAnswer) {
       free.push_back(dof);
     }
   }
-  ArticulatedFactor factor;
-  factor.factorise(k.model, k.kin, k.system.op, prescribed);
-  Eigen::VectorXd base, reaction;
-  Matrix6Xd twist;
-  factor.solve(k.model, k.kin, k.system.wrench, k.system.joint, base, twist, reaction);
-  RowColumns columns;
-  BoxQp qp;
-  assemble_dual(k.model, k.kin, factor, k.rows, base, {twist, centre_velocities(k.kin, twist)},
-                columns, qp);
+  Eigen::VectorXd base;
+  const BoxQp qp = dual_with(k, prescribed, k.rows, base);
   const Eigen::MatrixXd H = dense(k.model, k.kin, k.system.op)(free, free);
   const Eigen::MatrixXd C = dense_rows(k.model, k.kin, k.rows);
   const Eigen::MatrixXd moving = C(Eigen::all, free);
@@ -134,16 +142,8 @@ TEST(DualProblem, RowsThatPrescribedVelocitiesHoldCannotMove) {
     for (int dof = root_dofs; dof < k.model.nv(); ++dof) {
       if (is_prescribed(dof)) prescribed.push_back({dof, 0.1 * dof});
     }
-    ArticulatedFactor factor;
-    factor.factorise(k.model, k.kin, k.system.op, prescribed);
-    Eigen::VectorXd base, reaction;
-    Matrix6Xd twist;
-    factor.solve(k.model, k.kin, k.system.wrench, k.system.joint, base, twist, reaction);
-    RowColumns columns;
-    BoxQp qp;
-    assemble_dual(k.model, k.kin, factor, contacts, base, {twist, centre_velocities(k.kin, twist)},
-                  columns, qp);
-    return qp.A;
+    Eigen::VectorXd base;
+    return dual_with(k, prescribed, contacts, base).A;
   };
   const auto count = static_cast<Eigen::Index>(contacts.size());
   EXPECT_EQ(A_where([](int) { return true; }), Eigen::MatrixXd::Zero(count, count))

@@ -1,19 +1,39 @@
-// When the controller goes from one phase to the next, and what it commands in each.
+// The controller: the contacts with which the knot begins and ends, when it goes from one phase to
+// the next and what it commands in each, and what it says of a knot that does not come or comes
+// undone.
 #include <gtest/gtest.h>
 
 #include "tests/support/controller_fixture.hpp"
 
-namespace hagfish::controller_phases_test {
+namespace hagfish::controller_test {
 
-using ControllerPhases = ControllerTest;
+using Controller = ControllerTest;
 
-TEST_F(ControllerPhases, TrefoilOfTheseTestsIsOne) {
-  tie(true);
-  EXPECT_EQ(knot_type(observation.kin.centre, {.votes = 15, .seed = 1}).type,
-            (KnotInvariants{3, 1}));
+TEST_F(Controller, HasNoSpanWithoutContacts) {
+  step({});
+  EXPECT_FALSE(knot_span(state));
+  EXPECT_FALSE(state.ends.first || state.ends.last);
 }
 
-TEST_F(ControllerPhases, FormsByScriptWithTheHeadClamped) {
+TEST_F(Controller, SpansFromTheFirstToTheLast) {
+  step({contact(5, 30), contact(6, 33, 0.04), contact(8, 25)});
+  ASSERT_TRUE(knot_span(state));
+  EXPECT_EQ(knot_span(state)->head_end, 5);
+  EXPECT_EQ(knot_span(state)->tail_end, 33);
+}
+
+TEST_F(Controller, DropsThemOnceNoneTouches) {
+  step({contact(5, 30)});
+  step({contact(5, 30, 0.08)});
+  EXPECT_FALSE(state.ends.first || state.ends.last);
+}
+
+TEST_F(Controller, CommandsNoneThatDoNotTouch) {
+  start_in(Phase::slide);
+  EXPECT_TRUE(step({contact(5, 30, 0.08)}).thigmotaxis.empty());
+}
+
+TEST_F(Controller, FormsByScriptWithTheHeadClamped) {
   now = 2.5;
   const Control control = step({contact(5, 30)});
   EXPECT_EQ(state.phase, Phase::form);
@@ -22,7 +42,7 @@ TEST_F(ControllerPhases, FormsByScriptWithTheHeadClamped) {
   EXPECT_TRUE(control.thigmotaxis.empty());
 }
 
-TEST_F(ControllerPhases, TightensOnceTiedWithEnoughTailThrough) {
+TEST_F(Controller, TightensOnceTiedWithEnoughTailThrough) {
   tie(true);
   step({contact(5, 34.5)});  // 7.9 cm of tail
   EXPECT_EQ(state.phase, Phase::form);
@@ -40,13 +60,13 @@ TEST_F(ControllerPhases, TightensOnceTiedWithEnoughTailThrough) {
   EXPECT_EQ(control.thigmotaxis[1].speed.b, 2);
 }
 
-TEST_F(ControllerPhases, DoesNotTightenAnUnknot) {
+TEST_F(Controller, DoesNotTightenAnUnknot) {
   tie(false);
   step({contact(5, 30)});
   EXPECT_EQ(state.phase, Phase::form);
 }
 
-TEST_F(ControllerPhases, LooksAtTheKnotOnlyNowAndThen) {
+TEST_F(Controller, LooksAtTheKnotOnlyNowAndThen) {
   tie(false);
   step({contact(5, 30)});  // checks the knot, and again in 10 ms
   tie(true);
@@ -58,7 +78,7 @@ TEST_F(ControllerPhases, LooksAtTheKnotOnlyNowAndThen) {
   EXPECT_EQ(state.phase, Phase::tighten);
 }
 
-TEST_F(ControllerPhases, SlidesOnceTightForAWhile) {
+TEST_F(Controller, SlidesOnceTightForAWhile) {
   start_in(Phase::tighten);
   for (int round = 0; round < 3; ++round) {
     const double loose = now;
@@ -78,7 +98,7 @@ TEST_F(ControllerPhases, SlidesOnceTightForAWhile) {
   }
 }
 
-TEST_F(ControllerPhases, SlidesAfterTheLongestTightening) {
+TEST_F(Controller, SlidesAfterTheLongestTightening) {
   now = 20;
   start_in(Phase::tighten);
   step({contact(5, 30)});
@@ -90,7 +110,7 @@ TEST_F(ControllerPhases, SlidesAfterTheLongestTightening) {
   EXPECT_EQ(state.phase, Phase::slide);
 }
 
-TEST_F(ControllerPhases, FreesTheHeadOnceTheKnotIsNear) {
+TEST_F(Controller, FreesTheHeadOnceTheKnotIsNear) {
   start_in(Phase::slide);
   EXPECT_TRUE(step({contact(1.95, 20)}).clamp_head);
   EXPECT_EQ(state.phase, Phase::slide);
@@ -101,7 +121,7 @@ TEST_F(ControllerPhases, FreesTheHeadOnceTheKnotIsNear) {
   EXPECT_EQ(control.thigmotaxis[0].speed.a, 2);
 }
 
-TEST_F(ControllerPhases, StopsOnceUntied) {
+TEST_F(Controller, StopsOnceUntied) {
   start_in(Phase::release);
   tie(false);
   now = state.knot_seen + scene.knot.interval;
@@ -111,12 +131,12 @@ TEST_F(ControllerPhases, StopsOnceUntied) {
   EXPECT_FALSE(control.clamp_head);
 }
 
-TEST_F(ControllerPhases, NeverClampsAHeadThatTheSceneLeavesFree) {
+TEST_F(Controller, NeverClampsAHeadThatTheSceneLeavesFree) {
   scene.clamp_head = false;
   EXPECT_FALSE(step({}).clamp_head);
 }
 
-TEST_F(ControllerPhases, DoesNotTightenBeforeItsTime) {
+TEST_F(Controller, DoesNotTightenBeforeItsTime) {
   scene.controller.tighten_from = 4;
   tie(true);
   now = 3.98;
@@ -127,7 +147,7 @@ TEST_F(ControllerPhases, DoesNotTightenBeforeItsTime) {
   EXPECT_EQ(state.phase, Phase::tighten);
 }
 
-TEST_F(ControllerPhases, FreesTheHeadFromThePhaseThatTheSceneNames) {
+TEST_F(Controller, FreesTheHeadFromThePhaseThatTheSceneNames) {
   scene.controller.free_from = Phase::tighten;
   tie(false);
   EXPECT_TRUE(step({contact(5, 30)}).clamp_head);
@@ -138,7 +158,7 @@ TEST_F(ControllerPhases, FreesTheHeadFromThePhaseThatTheSceneNames) {
   EXPECT_TRUE(step({contact(5, 30)}).clamp_head);
 }
 
-TEST_F(ControllerPhases, TurnsBackAtTheHeadAndReleasesNearTheTail) {
+TEST_F(Controller, TurnsBackAtTheHeadAndReleasesNearTheTail) {
   scene.controller.leave_by = BodyEnd::tail;
   scene.controller.reverse_head = {3, 4};
   scene.controller.reverse_tail = {5, 6};
@@ -164,7 +184,7 @@ TEST_F(ControllerPhases, TurnsBackAtTheHeadAndReleasesNearTheTail) {
   EXPECT_THROW(step({contact(5, 30)}), StepError);
 }
 
-TEST_F(ControllerPhases, PullsAtFoodUntilItLetsGo) {
+TEST_F(Controller, PullsAtFoodUntilItLetsGo) {
   scene.controller.cap = 400;
   scene.food.hold = 1;
   scene.food.cap = {100, 300, 0.5};
@@ -194,7 +214,7 @@ TEST_F(ControllerPhases, PullsAtFoodUntilItLetsGo) {
   EXPECT_EQ(control.thigmotaxis.at(0).effort, 1);
 }
 
-TEST_F(ControllerPhases, FoodGivesWhereTheMeanPullPassesItsStrength) {
+TEST_F(Controller, FoodGivesWhereTheMeanPullPassesItsStrength) {
   scene.food = {.hold = 1, .strength = 0.5, .average = 0.01, .cap = {100, 100, 0}};  // 5 steps
   now = 0.004;
   start_in(Phase::slide);
@@ -216,7 +236,7 @@ TEST_F(ControllerPhases, FoodGivesWhereTheMeanPullPassesItsStrength) {
   EXPECT_NEAR(now, 0.032, 1e-12);
 }
 
-TEST_F(ControllerPhases, AKnotIsGoneOnceItHasBeenForAWhile) {
+TEST_F(Controller, AKnotIsGoneOnceItHasBeenForAWhile) {
   scene.controller.untied_for = 0.1;
   start_in(Phase::release);
   tie(false);
@@ -238,4 +258,72 @@ TEST_F(ControllerPhases, AKnotIsGoneOnceItHasBeenForAWhile) {
   EXPECT_EQ(state.phase, Phase::free);
 }
 
-}  // namespace hagfish::controller_phases_test
+TEST_F(Controller, ThrowsWhereTheScriptEndsUntied) {
+  tie(false);
+  now = 6.9;  // the script ends at 5 s, and two fifths of that is patience
+  EXPECT_NO_THROW(step({}));
+  now = 7.1;
+  EXPECT_EQ(complaint({}),
+            "the script ended with no knot (none was tied before), but expect.knot = 3_1");
+}
+
+TEST_F(Controller, TellsWhichKnotCameUndoneAndWhen) {
+  tie(true);
+  now = 3;
+  step({});
+  tie(false);
+  now = 4.5;
+  step({});
+  now = 7.1;
+  EXPECT_EQ(
+      complaint({}),
+      "the script ended with no knot (there was a 3_1 from 3.00 to 4.50 s), but expect.knot = 3_1");
+}
+
+TEST_F(Controller, WaitsForTheScenesKnotAndTellsWhichOneCame) {
+  scene.expect.knot = "4_1";
+  tie(true);
+  now = 3;
+  step({contact(5, 30)});
+  EXPECT_EQ(state.phase, Phase::form);
+  now = 7.1;
+  EXPECT_EQ(complaint({contact(5, 30)}),
+            "the script ended with a 3_1, tied since 3.00 s, but expect.knot = 4_1");
+}
+
+TEST_F(Controller, TellsOfTooLittleTailThrough) {
+  tie(true);
+  now = 3;
+  step({contact(5, 35)});
+  now = 7.1;
+  EXPECT_EQ(complaint({contact(5, 35)}),
+            "the script ended with a 3_1, tied since 3.00 s, but only 7.40 cm of tail is through "
+            "it; controller.tail_through = 8 cm");
+}
+
+TEST_F(Controller, ThrowsWhereTheKnotIsLost) {
+  for (const Phase phase : {Phase::tighten, Phase::slide}) {
+    start_in(phase);
+    tie(false);
+    now = state.knot_seen + scene.knot.interval;
+    EXPECT_THROW(step({contact(5, 30)}), StepError) << phase_name(phase);
+  }
+}
+
+TEST_F(Controller, WaitsWithoutAScript) {
+  scene.script = {};
+  tie(false);
+  now = 1000;
+  EXPECT_NO_THROW(step({}));
+  EXPECT_EQ(state.phase, Phase::form);
+}
+
+TEST_F(Controller, WithoutAKnotExpectedItOnlyForms) {
+  scene.expect.knot = "";
+  tie(true);
+  now = 100;
+  EXPECT_EQ(complaint({contact(5, 30)}), "none");
+  EXPECT_EQ(state.phase, Phase::form);
+}
+
+}  // namespace hagfish::controller_test
