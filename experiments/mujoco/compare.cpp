@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "core/input/input_error.hpp"
+#include "core/step/step.hpp"
 #include "experiments/mujoco/motions.hpp"
 #include "mujoco_ref/agreement.hpp"
 #include "mujoco_ref/mirror.hpp"
@@ -20,9 +22,22 @@ struct Comparison {
   double angle = 3.1;  ///< hinge angles of those to either side, rad
   double spin = 100;   ///< and velocities, cm/s and rad/s
   unsigned seed = 1;
-  double rollout_time = 1;      ///< the coil opens step by step at the scene's h, s
-  double rollout_bound = 1e-8;  ///< largest difference in q̇ there
+  double rollout_time = 1;       ///< the coil opens step by step at the scene's h, s
+  double rollout_bound = 1e-8;   ///< largest difference in q̇ there
+  double error_time = 0.5;       ///< errors are taken here, s
+  double reference_step = 2e-4;  ///< of MuJoCo's RK4, which they are taken against, s
+  std::array<double, 5> steps = {0.008, 0.004, 0.002, 0.001, 0.0005};  ///< s
 };
+
+struct Rule {
+  const char* name;
+  int integrator;  ///< MuJoCo's; not used for the core
+};
+constexpr Rule core_rule{"core", -1};
+constexpr std::array<Rule, 4> rules{{core_rule,
+                                     {"mujoco_euler", mjINT_EULER},
+                                     {"mujoco_implicit", mjINT_IMPLICIT},
+                                     {"mujoco_rk4", mjINT_RK4}}};
 
 const char* head_name(Head head) { return head == Head::free ? "free" : "clamped"; }
 
@@ -123,6 +138,52 @@ void compare_rollouts(const Model& model, Head head, double h, int steps,
                       {"cm", "largest distance between body centres"});
 }
 
+State end_of(const Rule& rule, const Model& model, const State& start, Head head, double h,
+             double time) {
+  const int steps = static_cast<int>(std::lround(time / h));
+  if (rule.integrator == core_rule.integrator) {
+    return core_rollout(model, start, head, TimeRule::euler, h, steps).back();
+  }
+  MujocoModel mirror = mirror_of(model, h, head);
+  mirror.model()->opt.integrator = rule.integrator;
+  return mujoco_rollout(model, start, mirror, steps).back();
+}
+
+void compare_errors(const Model& model, Head head, const Comparison& settings, Findings& findings) {
+  const State start = start_of(motions.front(), model);
+  const State reference =
+      end_of(rules.back(), model, start, head, settings.reference_step, settings.error_time);
+  const std::string group = std::string("/error/") + head_name(head);
+  findings.h5.group(group);
+  findings.h5.numbers(
+      group + "/h", Eigen::Map<const Eigen::VectorXd>(settings.steps.data(), settings.steps.size()),
+      {"s", "time steps"});
+  fmt::print("\n{:<8} {:<16}", head_name(head), "h, s:");
+  for (const double h : settings.steps) fmt::print(" {:>9g}", h);
+  fmt::print("\n");
+  for (const Rule& rule : rules) {
+    Eigen::VectorXd error(settings.steps.size());
+    fmt::print("{:<8} {:<16}", "", rule.name);
+    for (std::size_t i = 0; i < settings.steps.size(); ++i) {
+      double& value = error[static_cast<Eigen::Index>(i)];
+      try {
+        const State end = end_of(rule, model, start, head, settings.steps[i], settings.error_time);
+        value = centre_distance(model, end, reference);
+        fmt::print(" {:>9.2e}", value);
+      } catch (const StepError&) {
+        value = INFINITY;
+        fmt::print(" {:>9}", "blew up");
+      }
+      std::fflush(stdout);
+    }
+    fmt::print("\n");
+    findings.h5.numbers(group + "/" + rule.name, error,
+                        {"cm", fmt::format("largest error of a body centre at t = {:g} s, infinite "
+                                           "where the method blew up",
+                                           settings.error_time)});
+  }
+}
+
 }  // namespace
 
 bool compare(const ResolvedScene& resolved, Hdf5Writer& h5) {
@@ -131,13 +192,18 @@ bool compare(const ResolvedScene& resolved, Hdf5Writer& h5) {
   const Comparison settings;
   const int steps = rollout_steps(h, settings);
   Findings findings(h5);
-  for (const char* group : {"/states", "/rollout"}) h5.group(group);
+  for (const char* group : {"/states", "/rollout", "/error"}) h5.group(group);
   fmt::print("{} bodies, {} random states; contacts, limits and drag left out\n\n",
              model.body_count(), settings.states);
   fmt::print("{:<8} {:<34} {:>9} {:>9}\n", "head", "largest difference in", "found", "bound");
   for (const Head head : {Head::free, Head::clamped}) {
     compare_states(model, head, h, settings, findings);
     compare_rollouts(model, head, h, steps, settings, findings);
+  }
+  fmt::print("\nError of a body centre at {:g} s, cm, against MuJoCo's RK4 at {:g} s\n",
+             settings.error_time, settings.reference_step);
+  for (const Head head : {Head::free, Head::clamped}) {
+    compare_errors(model, head, settings, findings);
   }
   return findings.passed();
 }

@@ -1,0 +1,46 @@
+// What a film says of its animal's passive body and of the water: found from motion that no muscle
+// drives.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "core/input/files/scene_reader.hpp"
+#include "experiments/film/film.hpp"
+#include "experiments/film/fit/film_fit.hpp"
+
+namespace hagfish {
+
+/// What is found, each as a factor of what the scene has: stiffness of bending and twist, their
+/// damping, and the water's drag, normal and tangential.
+enum class AnimalTrait { stiffness, damping, drag };
+inline constexpr int animal_traits = 3;
+
+/// A factor and its interval of 90 %.
+struct TraitEstimate {
+  double factor = 1, low = 1, high = 1;
+  bool told = false;  ///< whether the film says it: the interval spans less than trait_told
+};
+
+struct AnimalFit {
+  std::array<TraitEstimate, animal_traits> trait;
+  double rms = 0;        ///< distance of the film's points from the run, cm of the model
+  bool settled = false;  ///< whether the last change made less than a thousandth of a difference
+};
+
+/// Highest over lowest value of an interval of 90 % within which a film is said to tell a trait.
+inline constexpr double trait_told = 4;
+
+/// The factors by which the scene's animal, without muscles, moves most like the film from its
+/// first midline on: nonlinear least squares over the logarithms of the factors, the bends and
+/// their rates at the start, and of a free head its velocity (Levenberg and Marquardt's steps;
+/// rates by differences of runs). The film's axes are those of the nearest rigid motion. Intervals
+/// are those of the linear model, with the variance of the residuals. It grows with what neighbours
+/// in time have in common. Factors have a prior: a factor of ten is one standard deviation.
+/// `fit` is of `film`: it gives the start, the scale, and which points are used. The scene has no
+/// gravity and no obstacles but the head plate, which is left out. Throws InputError, without the
+/// film's name, where it has either, or has no stiffness, damping or drag to scale.
+AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, const FilmFit& fit,
+                     FilmHead head, const std::function<void(int)>& watch = {});
+
+}  // namespace hagfish
