@@ -17,18 +17,25 @@ bool goes_on(const std::vector<SplineSegment>& segments, int segment, int neighb
          !std::isnan(segments[neighbour].bound);
 }
 
-/// The parameter on a segment at which the gap to the skin of radius r about x is a minimum along
-/// the strand, if there is one. One on the border of two segments is the second one's: the taper
-/// differs, so that the rates on both sides do.
+/// The rate of the gap to the skin of radius r about x on the border of a segment, at 0 or 1: the
+/// mean of both segments', whose tapers differ, so that a minimum is in one of them.
+double border_rate(const std::vector<SplineSegment>& segments, int segment, double border,
+                   const Eigen::Vector3d& x, double r) {
+  const double own = GapAt(segments[segment], x, r, border).rate;
+  const int neighbour = border > 0 ? segment + 1 : segment - 1;
+  if (!goes_on(segments, segment, neighbour)) return own;
+  return 0.5 * (own + GapAt(segments[neighbour], x, r, 1 - border).rate);
+}
+
+/// The parameter on a segment at which this gap is a minimum along the strand, if there is one.
 std::optional<double> foot_on(const std::vector<SplineSegment>& segments, int segment,
                               const Eigen::Vector3d& x, double r) {
-  const SplineSegment& s = segments[segment];
-  const double begin = GapAt(s, x, r, 0).rate, end = GapAt(s, x, r, 1).rate;
-  if (begin < 0 && end >= 0) return least_between(s, x, r, 0, 1, begin / (begin - end));
-  if (begin >= 0 && (!goes_on(segments, segment, segment - 1) ||
-                     GapAt(segments[segment - 1], x, r, 1).rate < 0)) {
-    return 0;
+  const double begin = border_rate(segments, segment, 0, x, r);
+  const double end = border_rate(segments, segment, 1, x, r);
+  if (begin < 0 && end >= 0) {
+    return least_between(segments[segment], x, r, 0, 1, begin / (begin - end));
   }
+  if (begin >= 0 && !goes_on(segments, segment, segment - 1)) return 0;
   if (end < 0 && !goes_on(segments, segment, segment + 1)) return 1;
   return std::nullopt;
 }

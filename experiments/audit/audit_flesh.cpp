@@ -12,10 +12,10 @@ namespace {
 
 /// Rows meet their law to what the back end solves, here of each force.
 constexpr double force_tolerance = 1e-5;
-/// Of the energy: gaps are sampled, and a minimum on a border where the taper changes is a little
-/// off.
+/// Of the energy: gaps are sampled.
 constexpr double energy_tolerance = 0.01;
-constexpr int samples = 24;  ///< of a segment
+constexpr int samples = 50;      ///< of a segment
+constexpr double across = 1e-4;  ///< of a segment, to either side of a border
 
 int points_on(const SplineSegment& segment, const FleshSettings& flesh) {
   return std::max(1, static_cast<int>(std::lround(segment.s1 / flesh.spacing)));
@@ -64,7 +64,8 @@ void FleshAudit::see(const AuditedFrame& frame) {
                    energy_tolerance * energy);
 }
 
-/// Every point against every segment of other strands, by samples of the gap along each.
+/// Every point against every segment of other strands, by samples of the gap along each. A foot is
+/// where the gap falls into a segment and rises out of it, or at an end of a strand.
 double FleshAudit::stored_between_strands(const std::vector<SplineSegment>& segments) const {
   const Scene& scene = log_.resolved.scene;
   const int count = static_cast<int>(segments.size());
@@ -73,24 +74,26 @@ double FleshAudit::stored_between_strands(const std::vector<SplineSegment>& segm
     return s.obstacle >= 0 && log_.model.obstacles[s.obstacle].strand()->closed;
   };
   const auto see_point = [&](const Eigen::Vector3d& x, double r, double weight, const auto& other) {
-    std::vector<double> gap;  // along one strand after the other, with a border between them
+    const auto gap = [&](int k, double t) {
+      return (segments[k].point(t) - x).norm() - segments[k].radius(t) - r;
+    };
+    const auto same_strand = [&](int k, int next) {
+      return next >= 0 && next < count && segments[next].obstacle == segments[k].obstacle &&
+             !std::isnan(segments[next].bound);
+    };
     for (int k = 0; k < count; ++k) {
       const SplineSegment& s = segments[k];
-      const bool near = other(k) && (s.middle - x).norm() < s.bound + r;
-      for (int j = 0; j <= samples; ++j) {
-        const double t = static_cast<double>(j) / samples;
-        if (j == 0 && !gap.empty() && !std::isinf(gap.back())) continue;  // as the end before
-        gap.push_back(near ? (s.point(t) - x).norm() - s.radius(t) - r : INFINITY);
+      if (!other(k) || (s.middle - x).norm() >= s.bound + r) continue;
+      const bool first = !same_strand(k, k - 1), last = !same_strand(k, k + 1);
+      // Which way the gap goes across the borders of the segment.
+      const bool falls = gap(k, across) < (first ? gap(k, 0) : gap(k - 1, 1 - across));
+      const bool rises = (last ? gap(k, 1) : gap(k + 1, across)) >= gap(k, 1 - across);
+      if (!(falls && rises) && !(first && !falls) && !(last && !rises)) continue;
+      double least = first && !falls ? gap(k, 0) : gap(k, 1);
+      for (int j = 0; falls && rises && j <= samples; ++j) {
+        least = std::min(least, gap(k, static_cast<double>(j) / samples));
       }
-    }
-    gap.push_back(INFINITY);
-    for (std::size_t j = 0; j + 1 < gap.size(); ++j) {
-      const double before = j == 0 ? INFINITY : gap[j - 1];
-      if (!(gap[j] < 0 && gap[j] <= before && gap[j] < gap[j + 1])) continue;
-      const double bend = before - 2 * gap[j] + gap[j + 1];
-      const double dip =
-          std::isfinite(bend) && bend > 0 ? std::pow(gap[j + 1] - before, 2) / (8 * bend) : 0;
-      energy += 0.5 * scene.flesh.stiffness * weight * std::pow(gap[j] - dip, 2);
+      if (least < 0) energy += 0.5 * scene.flesh.stiffness * weight * least * least;
     }
   };
   for (int own = 0; own < count; ++own) {
