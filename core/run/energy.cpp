@@ -154,7 +154,8 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   double pressed = 0;  // loss in flesh
   const double flesh = book_flesh(in, step, t, ledger.work, pressed) +
                        next.observation.flesh.energy - in.observation.flesh.energy;
-  ledger.dissipated += t * damped + pressed;
+  ledger.dissipated += t * damped;
+  ledger.dissipated += pressed;
   const double kinetic = ledger.kinetic;
   const double gravity = ledger.gravity;
   set_energies(model, next, ledger);

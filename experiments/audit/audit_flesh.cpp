@@ -50,9 +50,8 @@ void FleshAudit::see(const AuditedFrame& frame) {
     if (!frame.begins_step || !is_placed(log_.model, one)) continue;
     const Contact now =
         placed_contact(log_.model, frame.observation.kin, frame.observation.segments, one);
-    const Contact there = placed_contact(log_.model, frame.kin, frame.segments, one);
     const double speed =
-        row_velocity(motion_row(log_.model, there.normal, one.a, one.b),
+        row_velocity(motion_row(log_.model, push_of(log_, frame, one), one.a, one.b),
                      {frame.step_twist, frame.step_centre_velocity}, frame.qdot_step);
     const double lag = 0.5 * scene.time.step + (now.gap < 0 ? scene.flesh.relaxation : 0);
     const double force = -scene.flesh.stiffness * weight_of(frame, one) * (now.gap + lag * speed);
@@ -89,10 +88,25 @@ double FleshAudit::stored_between_strands(const std::vector<SplineSegment>& segm
       const bool falls = gap(k, across) < (first ? gap(k, 0) : gap(k - 1, 1 - across));
       const bool rises = (last ? gap(k, 1) : gap(k + 1, across)) >= gap(k, 1 - across);
       if (!(falls && rises) && !(first && !falls) && !(last && !rises)) continue;
-      double least = first && !falls ? gap(k, 0) : gap(k, 1);
-      for (int j = 0; falls && rises && j <= samples; ++j) {
-        least = std::min(least, gap(k, static_cast<double>(j) / samples));
+      double at = first && !falls ? 0 : 1;
+      if (falls && rises) {
+        int nearest = 0;
+        for (int j = 1; j <= samples; ++j) {
+          if (gap(k, j / double{samples}) < gap(k, nearest / double{samples})) nearest = j;
+        }
+        double from = std::max(nearest - 1, 0) / double{samples};
+        double to = std::min(nearest + 1, samples) / double{samples};
+        while (to - from > across) {  // by thirds
+          const double third = (to - from) / 3;
+          if (gap(k, from + third) < gap(k, to - third)) {
+            to -= third;
+          } else {
+            from += third;
+          }
+        }
+        at = 0.5 * (from + to);
       }
+      const double least = gap(k, at);
       if (least < 0) energy += 0.5 * scene.flesh.stiffness * weight * least * least;
     }
   };

@@ -17,6 +17,21 @@ void soften(const Scene& scene, double gap, double weight, Row& row) {
 
 }  // namespace
 
+Eigen::Vector3d normal_ahead(const Model& model, const Observation& now, const Contact& contact,
+                             double time) {
+  const BetweenPoints points = between_points(contact, Eigen::Vector3d::Zero(), model);
+  Eigen::Vector3d apart = now.segments[contact.segment_a].point(contact.t_a) -
+                          now.segments[contact.segment_b].point(contact.t_b);
+  const auto move = [&](const SplineMix& mix, double by) {
+    for (int k = 0; k < mix.count; ++k) {
+      apart += by * mix.weight[k] * now.kin.centre_velocity.col(mix.first + k);
+    }
+  };
+  move(points.a, time);
+  move(points.b, -time);
+  return apart.normalized();
+}
+
 void append_flesh_rows(const StepInput& in, const std::vector<SplineSegment>* at,
                        const NearBinding& wanted, std::vector<Row>& rows) {
   for (const FleshPoint& point : in.observation.flesh.points) {
@@ -25,6 +40,10 @@ void append_flesh_rows(const StepInput& in, const std::vector<SplineSegment>* at
     row.id.of = RowId::Of::flesh;
     if (point.own != contact.segment_a) std::swap(row.id.first, row.id.second);
     row.id.number = point.number;
+    if (at == nullptr) {
+      std::get<BetweenPoints>(row.shape).direction =
+          normal_ahead(in.model, in.observation, contact, 0.5 * in.scene.time.step);
+    }
     soften(in.scene, contact.gap, point.weight, row);
     if (!wanted.of_points(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) rows.pop_back();
   }

@@ -13,6 +13,12 @@
 
 namespace hagfish {
 
+/// Contact::normal of the contact's two points in `time` (s), at the velocities of `now`. By
+/// Euler's rule rows of flesh have that of the middle of the step: where points slip along an
+/// obstacle, that of its start would rub.
+Eigen::Vector3d normal_ahead(const Model& model, const Observation& now, const Contact& contact,
+                             double time);
+
 /// The rows of all points and planes, in place of the rows of hard contact. `at` are the segments
 /// where the equations hold, or null at the step's start.
 void append_flesh_rows(const StepInput& in, const std::vector<SplineSegment>* at,
