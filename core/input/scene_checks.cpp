@@ -159,11 +159,23 @@ void check_slits(const TableReader& root, const ResolvedScene& resolved, const M
   const auto on_strand = [&](const SplineSegment& s) {
     return s.obstacle >= 0 && !std::isnan(s.bound) && !model.obstacles[s.obstacle].strand()->closed;
   };
+  const auto filled = [&](const Eigen::Vector3d& place) {
+    constexpr int samples = 100;  // of a segment, nearer than its radius
+    return std::ranges::any_of(segments, [&](const SplineSegment& s) {
+      double nearest = INFINITY;
+      for (int k = 0; k <= samples && on_strand(s); ++k) {
+        nearest = std::min(nearest, (s.point(k / double{samples}) - place).norm());
+      }
+      return nearest < s.r0;
+    });
+  };
   for (const SplineSegment& a : segments) {
     for (const SplineSegment& b : segments) {
       if (!on_strand(a) || !on_strand(b) || a.obstacle >= b.obstacle) continue;
-      const double width = closest_points(a, b).gap;
-      if (width <= 0 || width >= least * thickest) continue;  // strands that touch leave no slit
+      const ClosestPoints at = closest_points(a, b);
+      const Eigen::Vector3d middle = 0.5 * (a.point(at.t_a) + b.point(at.t_b));
+      const double width = at.gap;  // strands that touch, or with another between, leave no slit
+      if (width <= 0 || width >= least * thickest || filled(middle)) continue;
       root.fail("obstacle", "the slit of " + shortest(width) + " cm between the " +
                                 model.obstacles[a.obstacle].name + " and the " +
                                 model.obstacles[b.obstacle].name +

@@ -21,8 +21,9 @@ from slit_scene import AT, POLE, THICKEST
 SHARES, STIFFNESSES = ("0.9", "0.8", "0.7", "0.6", "0.5"), ("6e4", "1e5", "3e5")
 PART = (0.3, 0.55)  # of the body, whose passage counts: as thick all along to 2 %
 RELAXATION, SPEED = 0.015, 3.0  # s, cm/s: slit.toml
-LOOKS = dict(zip(STIFFNESSES, (plots.Look("60 kPa", plots.BLUE, "o"), plots.Look("100 kPa", plots.INK, "s"),
-                               plots.Look("300 kPa", plots.ORANGE, "^"))))
+WATER = 2.358 * 42.4 * SPEED  # dyn: drag along the body, table1.toml
+LOOKS = dict(zip(STIFFNESSES, (plots.Look("6 kPa", plots.BLUE, "o"), plots.Look("10 kPa", plots.INK, "s"),
+                               plots.Look("30 kPa", plots.ORANGE, "^"))))
 
 
 @dataclass
@@ -49,7 +50,7 @@ def passage(path: Path) -> Passage:
 
 
 def closed_form(stiffness: float, width: float, radius: float) -> tuple[float, float]:
-    """Normal forces of one pole, summed, on a body that lies still; the pull of one that comes by; dyn."""
+    """Normal forces of one pole, summed, on a body that lies still; the pull of one that comes by in water; dyn."""
     half = width / 2 + POLE
     most = math.sqrt((radius + POLE) ** 2 - half**2)
     x = np.linspace(-most, most, 20001)
@@ -57,7 +58,7 @@ def closed_form(stiffness: float, width: float, radius: float) -> tuple[float, f
     overlap = radius + POLE - distance
     moving = np.maximum(0, overlap - RELAXATION * SPEED * x / distance)
     return (stiffness * float(np.trapz(overlap, x)),
-            -2 * stiffness * float(np.trapz(moving * x / distance, x)))
+            WATER - 2 * stiffness * float(np.trapz(moving * x / distance, x)))
 
 
 def area(share: float) -> float:
@@ -88,7 +89,7 @@ def main(folder: Path) -> None:
         axes.set(xlabel="width of the slit over the body's", ylabel=name, ylim=(0, None))
         axes.axvline(0.58, color=plots.GREY, linestyle="--", linewidth=0.9)
     normals.annotate("all blood gone", (0.585, 0.9 * normals.get_ylim()[1]), fontsize=7, color=plots.GREY)
-    pulls.legend(title="k', lines: closed forms")
+    pulls.legend(title="k' (lines: closed forms)")
     plots.save(figure, folder / "slit.png")
     tables.write_table(folder, "slit", [
         "width over the body's", "width, cm", "k', kPa", "force of one side, N", "closed form, N", "off, %", "pull at 3 cm/s, N",

@@ -48,6 +48,11 @@ TEST(FleshScene, RefusesASlitTooNarrowForTheVolume) {
   EXPECT_EQ(complaint(flesh + slit(0.81)), "");
   EXPECT_NE(complaint(flesh + slit(0.78)).find("too narrow for the volume of the body"),
             std::string::npos);
+  // A pole between the two leaves no slit.
+  EXPECT_EQ(complaint(flesh + slit(0.5) +
+                      "[[obstacle]]\nkind = 'strand'\npoints = [[20, 0, -9], [20, 0, 9]]\n"
+                      "radius = 0.3\n"),
+            "");
   // Hard bodies do not overlap at the start.
   EXPECT_NE(complaint(slit(0.81)).find("overlaps body"), std::string::npos);
 }

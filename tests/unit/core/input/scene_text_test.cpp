@@ -21,11 +21,12 @@ class Bits {
  public:
   Bits(const Scene& scene, const Specimen& specimen) {
     // The name of the specimen's file is not written.
-    const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, wall,
-                 obstacles, start, script, active, muscle, controller, food, knot, time, guard,
-                 expect] = scene;
-    add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, wall, obstacles,
-        start, script, active, muscle, controller, food, knot, time, guard, expect, specimen);
+    const auto& [title, file, mirror, clamp_head, gravity, model, drag, constraints, contact, flesh,
+                 wall, obstacles, start, script, active, muscle, controller, food, knot, time,
+                 guard, expect] = scene;
+    add(title, mirror, clamp_head, gravity, model, drag, constraints, contact, flesh, wall,
+        obstacles, start, script, active, muscle, controller, food, knot, time, guard, expect,
+        specimen);
   }
   bool operator==(const Bits&) const = default;
 
@@ -160,22 +161,30 @@ class Bits {
   void put(const ExpectSettings& s) {
     const auto& [knot, types, hand, slide_distance, slide_share, reverse_distance, out_of,
                  torque_share, pull, pull_settled, pull_drift, pull_balance, speed_share,
-                 penetration, skin_fold, limit_violation, head_drift, kkt, energy, energy_gain,
-                 energy_loss, momentum] = s;
+                 penetration, overlap, skin_fold, limit_violation, head_drift, kkt, energy,
+                 energy_gain, energy_loss, momentum] = s;
     add(knot, types, hand, slide_distance, slide_share, reverse_distance, out_of, torque_share,
-        pull, pull_settled, pull_drift, pull_balance, speed_share, penetration, skin_fold,
+        pull, pull_settled, pull_drift, pull_balance, speed_share, penetration, overlap, skin_fold,
         limit_violation, head_drift, kkt, energy, energy_gain, energy_loss, momentum);
   }
   void put(const Specimen& s) {
     const auto& [name, length, mass, station, circumference, bending_limit, bending_span,
                  twist_limit, bending_stiffness, bending_damping, twist_stiffness, twist_damping,
-                 muscle] = s;
+                 muscle, flesh] = s;
     add(name, length, mass, station, circumference, bending_limit, bending_span, twist_limit,
-        bending_stiffness, bending_damping, twist_stiffness, twist_damping, muscle);
+        bending_stiffness, bending_damping, twist_stiffness, twist_damping, muscle, flesh);
   }
   void put(const MuscleTissue& s) {
     const auto& [longitudinal_area, oblique_area, stress, radius_share, oblique_angle] = s;
     add(longitudinal_area, oblique_area, stress, radius_share, oblique_angle);
+  }
+  void put(const FleshTissue& s) {
+    const auto& [stiffness_range, least_area] = s;
+    add(stiffness_range, least_area);
+  }
+  void put(const FleshSettings& s) {
+    const auto& [stiffness, relaxation, spacing] = s;
+    add(stiffness, relaxation, spacing);
   }
   void put(const MuscleSettings& s) {
     const auto& [present, activation_time] = s;
@@ -297,6 +306,8 @@ ResolvedScene odd_scene() {
   s.expect.pull_drift = odd();
   s.expect.pull_balance = odd();
   s.food = {0, odd(), odd(), {odd(), odd(), odd()}};  // none, as the head is free
+  s.flesh = {odd(), odd(), odd()};
+  s.expect.overlap = odd();
   s.expect.energy = odd();
   s.expect.energy_gain = odd();
   s.expect.energy_loss = odd();
@@ -319,7 +330,8 @@ ResolvedScene odd_scene() {
                      {odd(), odd(), odd()},
                      {odd(), odd(), odd()},
                      {odd(), odd(), odd()},
-                     {{odd(), odd(), odd()}, {odd(), odd(), odd()}, odd(), odd(), odd()}};
+                     {{odd(), odd(), odd()}, {odd(), odd(), odd()}, odd(), odd(), odd()},
+                     {{odd(), 50 + odd()}, odd()}};
   return result;
 }
 

@@ -145,7 +145,9 @@ TEST_P(EnergyOf, FleshTakesWhatItsLawSays) {
     BookedRun run = squeezed_run(h, GetParam());
     for (double time = 0; time < 0.05; time += h) run.step(control(true));
     const double made = std::abs(run.ledger.integrator_potential);
-    if (coarse > 0) EXPECT_LT(made, 0.5 * coarse);
+    if (coarse > 0) {
+      EXPECT_LT(made, 0.5 * coarse);
+    }
     coarse = made;
   }
 }

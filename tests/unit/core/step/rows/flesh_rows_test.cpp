@@ -82,8 +82,8 @@ TEST(FleshRows, NeverPull) {
   s.state.qdot *= 40;  // parts fly apart
   const StepSolution step = s.solve();
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    if (step.rows[i].id.of == RowId::Of::flesh)
-      EXPECT_GE(step.lambda[static_cast<Eigen::Index>(i)], 0);
+    if (step.rows[i].id.of != RowId::Of::flesh) continue;
+    EXPECT_GE(step.lambda[static_cast<Eigen::Index>(i)], 0);
   }
 }
 
