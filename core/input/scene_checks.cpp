@@ -150,37 +150,23 @@ void check_food(const TableReader& root, const Scene& scene) {
   }
 }
 
-/// No slit between two strands is so narrow that a section could not get through with the area that
-/// is left of it at least: a stadium of width w has the share 1 - (1 - w/d)² of a circle's.
+/// No slit between two strands that follow each other in the scene is so narrow that a section
+/// could not get through with the area that is left of it at least: a stadium of width w has the
+/// share 1 - (1 - w/d)² of a circle's. Strands that touch leave no slit.
 void check_slits(const TableReader& root, const ResolvedScene& resolved, const Model& model,
                  const std::vector<SplineSegment>& segments) {
-  const double least = 1 - std::sqrt(1 - resolved.specimen.flesh.least_area);  // width over d
   const double thickest = 2 * std::ranges::max(model.bodies, {}, &Body::radius).radius;
-  const auto on_strand = [&](const SplineSegment& s) {
-    return s.obstacle >= 0 && !std::isnan(s.bound) && !model.obstacles[s.obstacle].strand()->closed;
-  };
-  const auto filled = [&](const Eigen::Vector3d& place) {
-    constexpr int samples = 100;  // of a segment, nearer than its radius
-    return std::ranges::any_of(segments, [&](const SplineSegment& s) {
-      double nearest = INFINITY;
-      for (int k = 0; k <= samples && on_strand(s); ++k) {
-        nearest = std::min(nearest, (s.point(k / double{samples}) - place).norm());
-      }
-      return nearest < s.r0;
-    });
-  };
+  const double least = thickest * (1 - std::sqrt(1 - resolved.specimen.flesh.least_area));
   for (const SplineSegment& a : segments) {
     for (const SplineSegment& b : segments) {
-      if (!on_strand(a) || !on_strand(b) || a.obstacle >= b.obstacle) continue;
-      const ClosestPoints at = closest_points(a, b);
-      const Eigen::Vector3d middle = 0.5 * (a.point(at.t_a) + b.point(at.t_b));
-      const double width = at.gap;  // strands that touch, or with another between, leave no slit
-      if (width <= 0 || width >= least * thickest || filled(middle)) continue;
+      if (a.obstacle < 0 || b.obstacle != a.obstacle + 1 || std::isnan(a.bound + b.bound)) continue;
+      const double width = closest_points(a, b).gap;
+      if (width <= 0 || width >= least) continue;
       root.fail("obstacle", "the slit of " + shortest(width) + " cm between the " +
                                 model.obstacles[a.obstacle].name + " and the " +
                                 model.obstacles[b.obstacle].name +
                                 " is too narrow for the volume of the body, which passes " +
-                                shortest(least * thickest) + " cm (specimen.flesh.least_area)");
+                                shortest(least) + " cm (specimen.flesh.least_area)");
     }
   }
 }

@@ -385,7 +385,9 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
     specimen_fields(table, animal);
     passive_fields(table, animal);
     if (!animal.muscle.longitudinal_area.empty()) muscle_tissue_fields(table, animal);
-    if (!animal.flesh.stiffness_range.empty()) flesh_tissue_fields(table, animal);
+    if (animal.flesh.least_area > 0 || !animal.flesh.stiffness_range.empty()) {
+      flesh_tissue_fields(table, animal);
+    }
   });
   return writer.text();
 }

@@ -26,8 +26,8 @@ constexpr double force_tolerance = 0.01;                  // of normal forces, a
 /// Curve of straight lines and arcs in the plane, that rises from 0 to `rise` between two lengths.
 class Curve {
  public:
-  void line(double length) {
-    for (int i = 0; i < samples; ++i) add(length / samples, 0);
+  void line(double way) {
+    for (int i = 0; i < samples; ++i) add(way / samples, 0);
   }
   void arc(double around, double turn) {
     for (int i = 0; i < samples; ++i) add(around * std::abs(turn) / samples, turn / samples);
@@ -97,7 +97,7 @@ TEST_P(AtMeshes, TubesThatCrossPressAsTheirLensDoes) {
     // The chord of two circles that overlap by d is 2 sqrt(r d) wide, but for d / r of it.
     EXPECT_NEAR(along.row(1).maxCoeff(), stiffness * d / (2 * std::sqrt(radius * d)),
                 0.03 * stiffness * d / (2 * std::sqrt(radius * d)));
-    const double pressed = link * (along.row(0).array() > 0).count() / 2;
+    const double pressed = link * static_cast<double>((along.row(0).array() > 0).count()) / 2;
     EXPECT_NEAR(pressed, 2 * std::sqrt(4 * radius * d - d * d), 2 * std::max(link, 0.212));
   }
 }
@@ -160,13 +160,13 @@ struct Slit {
     return 2 * stiffness * sum * most / parts;
   }
   static constexpr double pole = 0.3;  // cm
-  double half = 0;                                // of the slit's width, cm
+  double half = 0;                     // of the slit's width, cm
   Scene scene;
   Model model;
 };
 
-// Points lie a quarter of a contact apart where it is shortest. So one place may be 3 % off, and the
-// mean as the body comes by is not.
+// Points lie a quarter of a contact apart where it is shortest. So one place may be 3 % off, and
+// the mean as the body comes by is not.
 TEST_P(AtMeshes, ASlitPressesAsItsShapeSays) {
   for (const double share : {0.9, 0.7, 0.5}) {
     constexpr int places = 20;

@@ -17,7 +17,6 @@ from script import run_script
 STIFFNESSES = ("6e4", "1e5", "3e5")
 PHASES = ("tighten", "slide")  # while the knot is held tight
 KPA = 1e-4  # of dyn/cm²
-MUSCLE = (11.0, 60.0)  # kPa: Young's modulus of relaxed muscle (specimens/pacific_hagfish.toml)
 
 
 def lens(stiffness: float, radius: float) -> tuple[np.ndarray, np.ndarray]:
@@ -33,7 +32,7 @@ def held(log: HagfishLog) -> np.ndarray:
 
 def main(folder: Path) -> None:
     rows = []
-    figure, axes = plots.panels(1, 2, (plots.WIDTH, 2.9), ["largest pressure, frame by frame (k' = 10 kPa)", "where along the body (k' = 10 kPa)"])
+    figure, axes = plots.panels(1, 2, (plots.WIDTH, 2.9), ["largest pressure, frame by frame", "largest at any frame, by place"])
     for scene, knot in plots.SCENES.items():
         look = plots.KNOTS[knot]
         hard = HagfishLog(folder / "runs" / f"{scene}_0.h5")
@@ -61,10 +60,10 @@ def main(folder: Path) -> None:
                          f"{as_hard.max():.1f}", f"{beyond:.0f}"])
     for one, name in zip(axes, ("time since the knot is tightened, s", "arc length from the head, cm")):
         one.set(xlabel=name, ylabel="pressure, kPa", ylim=(0, None))
-    axes[0].legend()
+    axes[0].legend(title="k' = 10 kPa")
     plots.save(figure, folder / "pressures.png")
     tables.write_table(folder, "pressures", [
-        "knot", "k', kPa", "tied and slid", "largest overlap, cm", "pressure, median, kPa", "pressure, 95 %, kPa", "pressure, largest, kPa",
+        "knot", "k', kPa", "tied and held", "largest overlap, cm", "pressure, median, kPa", "pressure, 95 %, kPa", "pressure, largest, kPa",
         "hard: force of a contact, median, N", "hard: largest, N", "of a lens with k': median, kPa", "of a lens with k': largest, kPa",
         "hard contacts with more force than a lens has at half the width, %"], rows)
 

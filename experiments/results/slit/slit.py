@@ -17,6 +17,7 @@ import tables
 from hagfish_log import HagfishLog
 from script import run_script
 from slit_scene import AT, POLE, THICKEST
+from slit_wave import WALL
 
 SHARES, STIFFNESSES = ("0.9", "0.8", "0.7", "0.6", "0.5"), ("6e4", "1e5", "3e5")
 PART = (0.3, 0.55)  # of the body, whose passage counts: as thick all along to 2 %
@@ -47,6 +48,22 @@ def passage(path: Path) -> Passage:
     radius = np.interp(at * (arc[-1] + arc[0]), arc, log["/model/radius"])
     median = lambda values: float(np.median(values[through]))
     return Passage(median(radius), median(normal), median(log["/forces/tip"][:, 0]), median(log["/flesh/overlap"].max(axis=1)))
+
+
+def passed(path: Path, share: float) -> str:
+    """When the whole body has come through the slit, s, or what happens."""
+    log = HagfishLog(path)
+    for time, centre in zip(log["/trajectory/time"], log["/trajectory/position"]):
+        x, y = centre[:, 0] - WALL, centre[:, 1]
+        if (x < 0).all():
+            return f"{time:.1f}"
+        crossing = np.flatnonzero(x[:-1] * x[1:] < 0)
+        at = y[crossing] + (y[crossing + 1] - y[crossing]) * x[crossing] / (x[crossing] - x[crossing + 1])
+        if crossing.size == 0 and time > 0:
+            return "leaves it backwards"
+        if (np.abs(at) > share * THICKEST / 2 + POLE).any():
+            return "goes round the poles"
+    return "stays in it"
 
 
 def closed_form(stiffness: float, width: float, radius: float) -> tuple[float, float]:
@@ -111,6 +128,13 @@ def main(folder: Path) -> None:
                       f"{np.nanmax(pull) * 1e-5:.2f}" if begun else "-", "yes" if out else "no", f"{scene['food']['strength']:g}"])
     tables.write_table(folder, "slit_knot", [
         "width over the body's", "width, cm", "knot reaches the slit", "largest pull, N", "head comes out", "held up to, N"], knots)
+    waves = []
+    for wave in ("0.5_1_1", "0.7_0.6_0.5"):
+        for share in ("1.2", "0.9", "0.8", "0.7"):
+            angle, length, period = wave.split("_")
+            waves.append([angle, length, period, share, passed(folder / "runs" / f"wave_{wave}_{share}.h5", float(share))])
+    tables.write_table(folder, "slit_wave", [
+        "angle of the wave, rad", "its length over the body's", "its period, s", "width over the body's", "through after, s"], waves)
 
 
 if __name__ == "__main__":

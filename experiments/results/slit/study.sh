@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Through a slit narrower than the body: pulled, and by a knot behind it. Leaves tables/slit.csv, slit_meshes.csv, slit_knot.csv
-# and slit.png. Stopped, it goes on where it was.
+# Through a slit narrower than the body: pulled, by a knot behind it, and by a wave. Leaves tables/slit.csv, slit_meshes.csv,
+# slit_knot.csv, slit_wave.csv and slit.png. Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
@@ -25,5 +25,13 @@ once knot_1e5_1.2 "$out/scenes/knot_1.2.toml" --qp active-set
 for share in 0.9 0.7 0.5; do
   once "bodies_200_$share" "$out/scenes/pulled_$share.toml" --qp active-set --set model.bodies=200
   once "step_5_$share" "$out/scenes/pulled_$share.toml" --qp active-set --set time.step=0.005
+done
+for wave in "0.5 1 1" "0.7 0.6 0.5"; do
+  for share in 1.2 0.9 0.8 0.7; do
+    name=wave_${wave// /_}_$share
+    # shellcheck disable=SC2086 # three numbers
+    draw slit_wave.py $wave "$share" "$out/scenes/$name.csv" "$out/scenes/$name.toml"
+    once "$name" "$out/scenes/$name.toml" --qp active-set
+  done
 done
 draw slit.py "$out"

@@ -331,7 +331,7 @@ ResolvedScene odd_scene() {
                      {odd(), odd(), odd()},
                      {odd(), odd(), odd()},
                      {{odd(), odd(), odd()}, {odd(), odd(), odd()}, odd(), odd(), odd()},
-                     {{odd(), 50 + odd()}, odd()}};
+                     {{odd(), 50 + odd()}, odd() / 3}};
   return result;
 }
 

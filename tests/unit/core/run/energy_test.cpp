@@ -116,9 +116,11 @@ BookedRun squeezed_run(double h, TimeRule rule) {
   BookedRun run = busy_run(1, h, rule);
   Scene& scene = run.scene;
   scene.flesh = {1e5, 0.015, 0.212};
-  for (const double side : {-1.0, 1.0}) {
-    run.model.obstacles.push_back(
-        {"pole", Strand{{{20, 0.9 * side, -9}, {20, 0.9 * side, 9}}, 0.3}});
+  const Eigen::Vector3d middle = kinematics(run.model, run.state).centre.col(10);
+  for (const double side : {-0.9, 0.9}) {  // cm
+    const Eigen::Vector3d at = middle + side * Eigen::Vector3d::UnitY();
+    const Eigen::Vector3d half = 9 * Eigen::Vector3d::UnitZ();
+    run.model.obstacles.push_back({"pole", Strand{{at - half, at + half}, 0.3}});
   }
   return {std::move(run.model), std::move(scene), std::move(run.state)};
 }
