@@ -71,34 +71,45 @@ Observation observed(const RodChain& chain, const Scene& scene) {
 class AtMeshes : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Flesh, AtMeshes, testing::Values(100, 200));
 
+/// A tube whose end crosses over its begin at a right angle, `before` cm from its head.
+RodChain crossing(double overlap, double before, int bodies) {
+  Curve curve;
+  curve.line(before);
+  curve.arc(4, std::numbers::pi);
+  curve.line(3);
+  curve.arc(4, std::numbers::pi / 2);
+  curve.line(9);
+  lift(2 * radius - overlap, 0.3, 0.7, curve.points);
+  const double link = curve.length / bodies;
+  return chain_of({.radius = radius}, link, links_along(curve.points, link));
+}
+
+// F = k' ∫ (2 r - sqrt((2 r - d)² + s²)) ds, which is k' 4/3 d sqrt(2 (2 r - d) d) for small d.
 TEST_P(AtMeshes, TubesThatCrossPressAsTheirLensDoes) {
   for (const double overlap : {0.1, 0.2, 0.4}) {
-    Curve curve;
-    curve.line(11);
-    curve.arc(4, std::numbers::pi);
-    curve.line(3);
-    curve.arc(4, std::numbers::pi / 2);
-    curve.line(9);
-    lift(2 * radius - overlap, 0.3, 0.7, curve.points);
-    const double link = curve.length / GetParam();
-    const RodChain chain = chain_of({.radius = radius}, link, links_along(curve.points, link));
-    const Observation seen = observed(chain, flesh_scene(animal, 5));
-    ASSERT_EQ(seen.contact.contacts.size(), 1U);
-    const double d = -seen.contact.contacts[0].gap;
-    EXPECT_NEAR(d, overlap, 0.01);
-    double force = 0;
-    for (const FleshPoint& point : seen.flesh.points) {
-      force += stiffness * point.weight * std::max(0.0, -point.contact.gap);
+    double force = 0, lens = 0;
+    constexpr int places = 10;
+    for (int k = 0; k < places; ++k) {  // points lie elsewhere in each
+      const RodChain chain = crossing(overlap, 11 + 0.3 * k / places, GetParam());
+      const Observation seen = observed(chain, flesh_scene(animal, 5));
+      ASSERT_EQ(seen.contact.contacts.size(), 1U);
+      const double d = -seen.contact.contacts[0].gap, apart = 2 * radius - d;
+      EXPECT_NEAR(d, overlap, 0.01);
+      const double half = std::sqrt(4 * radius * d - d * d);
+      lens += stiffness * (2 * radius * half - apart * apart * std::asinh(half / apart));
+      for (const FleshPoint& point : seen.flesh.points) {
+        force += stiffness * point.weight * std::max(0.0, -point.contact.gap);
+      }
+      // The chord of two circles that overlap by d is 2 sqrt(r d) wide, but for d / r of it.
+      const Eigen::Matrix2Xd along = flesh_along(chain.model, animal, seen.kin, seen.flesh);
+      const double pressure = stiffness * d / (2 * std::sqrt(radius * d));
+      EXPECT_NEAR(along.row(0).maxCoeff(), d, 0.04 * d);
+      EXPECT_NEAR(along.row(1).maxCoeff(), pressure, 0.02 * pressure);
+      const double link = chain.model.bodies[0].length;
+      const double pressed = link * static_cast<double>((along.row(0).array() > 0).count()) / 2;
+      EXPECT_NEAR(pressed, 2 * half, 2 * std::max(link, 0.212));
     }
-    const double lens = stiffness * 4 / 3 * d * std::sqrt(2 * (2 * radius - d) * d);
-    EXPECT_NEAR(force, lens, 2 * force_tolerance * lens) << d;
-    const Eigen::Matrix2Xd along = flesh_along(chain.model, animal, seen.kin, seen.flesh);
-    EXPECT_NEAR(along.row(0).maxCoeff(), d, 0.03 * d);
-    // The chord of two circles that overlap by d is 2 sqrt(r d) wide, but for d / r of it.
-    EXPECT_NEAR(along.row(1).maxCoeff(), stiffness * d / (2 * std::sqrt(radius * d)),
-                0.03 * stiffness * d / (2 * std::sqrt(radius * d)));
-    const double pressed = link * static_cast<double>((along.row(0).array() > 0).count()) / 2;
-    EXPECT_NEAR(pressed, 2 * std::sqrt(4 * radius * d - d * d), 2 * std::max(link, 0.212));
+    EXPECT_NEAR(force, lens, force_tolerance * lens) << overlap;
   }
 }
 
@@ -262,17 +273,17 @@ TEST(FleshOfAClasp, BecomesHardAsItBecomesStiff) {
   const ClaspChain both = clasp_chain(link);
   const double hard = hook(link).tips;
   double before = INFINITY;
-  for (const double k : {10.0, 40.0, 160.0, 640.0}) {  // dyn/cm^2; the pull is 1 dyn
+  for (const double k : {20.0, 80.0, 320.0}) {  // dyn/cm^2; the pull is 1 dyn
     Scene scene = pulled_scene(0.5, clasp_pull, 1e-3, clasp_apart);
     scene.flesh = {k, 0.015, 0.1};
     Pulled rope(both.chain, scene, [&](const Kinematics&) { return both.loads; });
-    rope.relax(2e-5, 6000);
+    rope.relax(2e-5, 6000, 0.05);  // in longer steps soft ropes pass through each other
     const double off = std::abs(both.tips(rope.kin().centre) - hard);
     std::cout << "[ FIGURE   ] k' = " << k << ": tips " << off << " cm from hard ropes'\n";
-    EXPECT_LT(off, 0.6 * before);
+    EXPECT_LT(off, 0.5 * before);
     before = off;
   }
-  EXPECT_LT(before, 0.01);
+  EXPECT_LT(before, 0.03);
 }
 
 // One body on a soft floor: period and decrement of a spring and a damper side by side.
