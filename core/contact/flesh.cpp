@@ -40,9 +40,9 @@ std::optional<double> foot_on(const std::vector<SplineSegment>& segments, int se
   return std::nullopt;
 }
 
-/// Adds the points of segment `own` that are within `margin` of segment `other`.
+/// Adds the points of segment `own` whose gap to segment `other` is at most `most`.
 void add_points(const std::vector<SplineSegment>& segments, const FleshSettings& settings,
-                double margin, int own, int other, std::vector<FleshPoint>& points) {
+                double most, int own, int other, std::vector<FleshPoint>& points) {
   const SplineSegment& strand = segments[own];
   const SplineSegment& opposite = segments[other];
   const int count = std::max(1, static_cast<int>(std::lround(strand.s1 / settings.spacing)));
@@ -50,10 +50,10 @@ void add_points(const std::vector<SplineSegment>& segments, const FleshSettings&
   for (int k = 0; k < count; ++k) {
     const double t = (k + 0.5) / count;
     const Eigen::Vector3d x = strand.point(t);
-    const double r = strand.radius(t), reach = margin + r + opposite.bound;
+    const double r = strand.radius(t), reach = most + r + opposite.bound;
     if ((opposite.middle - x).squaredNorm() > reach * reach) continue;
     const std::optional<double> foot = foot_on(segments, other, x, r);
-    if (!foot || GapAt(opposite, x, r, *foot).gap > margin) continue;
+    if (!foot || GapAt(opposite, x, r, *foot).gap > most) continue;
     FleshPoint& point = points.emplace_back();
     point.contact = own < other ? contact_at(segments, own, t, other, *foot)
                                 : contact_at(segments, other, *foot, own, t);
@@ -71,11 +71,14 @@ void find_flesh(const Model& model, const Scene& scene, const Kinematics& kin,
   flesh.points.clear();
   flesh.energy = 0;
   if (!scene.flesh.present()) return;
+  // Twice what two points come nearer to each other in a step.
+  const double fastest = std::sqrt(kin.centre_velocity.colwise().squaredNorm().maxCoeff());
+  const double most = std::min(scene.contact.margin, 4 * scene.time.step * fastest);
   for (const auto* contacts : {&found.contacts, &found.on_obstacles, &found.near_pairs}) {
     for (const Contact& pair : *contacts) {
       const bool ring = pair.obstacle >= 0 && model.obstacles[pair.obstacle].strand()->closed;
       const auto add = [&](int own, int other) {
-        add_points(segments, scene.flesh, scene.contact.margin, own, other, flesh.points);
+        add_points(segments, scene.flesh, most, own, other, flesh.points);
       };
       if (!ring) add(pair.segment_a, pair.segment_b);
       if (ring || pair.obstacle < 0) add(pair.segment_b, pair.segment_a);

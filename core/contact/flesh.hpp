@@ -23,7 +23,7 @@ struct FleshPoint {
   double curvature = 0;  ///< 1/r_a + 1/r_b of both skins, 1/cm
 };
 
-/// All points whose gap is at most ContactSettings::margin, and the energy stored where skins
+/// All points that overlap or may do so in a step, and the energy stored where skins
 /// overlap, planes included: Σ ½ k' w g², erg.
 struct Flesh {
   std::vector<FleshPoint> points;

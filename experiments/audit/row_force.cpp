@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/step/rows/contact_rows.hpp"
 #include "core/step/rows/flesh_rows.hpp"
 
 namespace hagfish {
@@ -27,9 +28,10 @@ Eigen::Vector3d push_of(const LogContents& log, const AuditedFrame& frame,
                         const LoggedContact& contact) {
   const Contact there = placed_contact(log.model, frame.kin, frame.segments, contact);
   const Scene& scene = log.resolved.scene;
-  const bool of_plane = contact.obstacle >= 0 && std::isnan(contact.on_obstacle);
-  if (!scene.flesh.present() || log.midpoint() || of_plane) return there.normal;
-  return normal_ahead(log.model, frame.observation, there, 0.5 * scene.time.step);
+  const bool on_strand = contact.obstacle >= 0 && !std::isnan(contact.on_obstacle);
+  if (!scene.flesh.present() || log.midpoint() || !on_strand) return there.normal;
+  return normal_ahead(frame.observation, there, between_points(there, there.normal, log.model),
+                      0.5 * scene.time.step);
 }
 
 Eigen::VectorXd force_of(const Model& model, const Kinematics& kin, const Row& row, double lambda) {

@@ -13,11 +13,11 @@
 
 namespace hagfish {
 
-/// Contact::normal of the contact's two points in `time` (s), at the velocities of `now`. By
-/// Euler's rule rows of flesh have that of the middle of the step: where points slip along an
-/// obstacle, that of its start would rub.
-Eigen::Vector3d normal_ahead(const Model& model, const Observation& now, const Contact& contact,
-                             double time);
+/// Contact::normal of the contact's two `points` in `time` (s), at the velocities of `now`. By
+/// Euler's rule rows of flesh on obstacles have that of the middle of the step: where points slip
+/// along them, that of its start would rub. Within the body it would turn the body.
+Eigen::Vector3d normal_ahead(const Observation& now, const Contact& contact,
+                             const BetweenPoints& points, double time);
 
 /// The rows of all points and planes, in place of the rows of hard contact. `at` are the segments
 /// where the equations hold, or null at the step's start.
