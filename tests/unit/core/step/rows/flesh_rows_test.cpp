@@ -87,26 +87,26 @@ TEST(FleshRows, NeverPull) {
   }
 }
 
-// A point whose foot lies on the border of two segments has one foot.
+// Where the body is thickest at the border of two segments, each point of a ring has its one foot
+// there: the gap falls up to the border and rises behind it.
 TEST(Flesh, HasOneFootOnABorder) {
   Scene scene = table1_scene();
   scene.wall.present = false;
   scene.flesh = {1e5, 0.015, 0.212};
   Model model = make_hagfish(table1_specimen(), scene);
-  const double r = model.bodies[30].radius;
+  model.bodies[30].radius += 0.1;
   const State rest = rest_state(model);
   const double x = kinematics(model, rest).centre(0, 30);  // where segments 29 and 30 meet
   model.obstacles = {{"ring", Strand{{{x, 0, 0.5}, {x, 1, 1}, {x, 2, 0}, {x, 1, -1}}, 0.3, true}}};
   const Observation seen = observe(model, rest, scene);
-  std::vector<std::pair<int, int>> seen_points;
+  std::vector<std::pair<int, int>> points;
   for (const FleshPoint& point : seen.flesh.points) {
-    EXPECT_NEAR(point.contact.segment_a + point.contact.t_a, 30, 0.2);
-    seen_points.emplace_back(point.own, point.number);
+    EXPECT_NEAR(point.contact.segment_a + point.contact.t_a, 30, 0.01);
+    points.emplace_back(point.own, point.number);
   }
-  ASSERT_FALSE(seen_points.empty());
-  std::ranges::sort(seen_points);
-  EXPECT_EQ(std::ranges::adjacent_find(seen_points), seen_points.end());
-  EXPECT_GT(r, 0.5);
+  EXPECT_GT(points.size(), 4U);
+  std::ranges::sort(points);
+  EXPECT_EQ(std::ranges::adjacent_find(points), points.end());
 }
 
 }  // namespace hagfish::flesh_rows_test
