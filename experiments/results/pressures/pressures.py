@@ -60,7 +60,7 @@ def main(folder: Path) -> None:
                          f"{as_hard.max():.1f}", f"{beyond:.0f}"])
     for one, name in zip(axes, ("time since the knot is tightened, s", "arc length from the head, cm")):
         one.set(xlabel=name, ylabel="pressure, kPa", ylim=(0, None))
-    axes[0].legend(title="k' = 10 kPa")
+    plots.legend_above(figure, axes[0].lines, 4, 0.1)
     plots.save(figure, folder / "pressures.png")
     tables.write_table(folder, "pressures", [
         "knot", "k', kPa", "tied and held", "largest overlap, cm", "pressure, median, kPa", "pressure, 95 %, kPa", "pressure, largest, kPa",
