@@ -55,6 +55,7 @@ MujocoLoop::MujocoLoop(const Model& model, const Scene& scene, const MujocoSetti
     : model_(model), scene_(scene), settings_(settings) {
   if (scene.wall.present)
     throw InputError("wall.present: must be false, since MuJoCo's model has no head plate");
+  if (scene.flesh.present()) throw InputError("flesh.stiffness: a run in MuJoCo has hard contact");
   if (!scene.obstacles.empty()) throw InputError("obstacle: a run in MuJoCo cannot have obstacles");
   using Kind = ScriptSettings::Kind;
   if (scene.script.kind == Kind::force || scene.script.kind == Kind::position) {

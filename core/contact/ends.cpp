@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/gap_at.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -18,39 +20,6 @@ struct Nearest {
   double t = 0;
   double rate = NAN;  ///< of the gap by the first strand's parameter, cm
 };
-
-/// The gap from a point of a segment to the skin of radius r about x, and its rate by the
-/// parameter.
-struct GapAt {
-  Eigen::Vector3d apart;  ///< cm
-  double distance, gap, rate;
-
-  GapAt(const SplineSegment& segment, const Eigen::Vector3d& x, double r, double t)
-      : apart(segment.point(t) - x),
-        distance(apart.norm()),
-        gap(distance - segment.radius(t) - r),
-        rate(apart.dot(segment.slope(t)) / distance - segment.r1) {}
-};
-
-/// Where the gap is least between two points of a segment at which it falls and rises. Newton's
-/// method on its rate, with bisection where that leaves the interval.
-double least_between(const SplineSegment& segment, const Eigen::Vector3d& x, double r, double falls,
-                     double rises, double start) {
-  double t = start;
-  for (int k = 0; k < iteration_limit; ++k) {
-    const GapAt here(segment, x, r, t);
-    (here.rate < 0 ? falls : rises) = t;
-    const double along = here.rate + segment.r1;
-    const double growth =
-        segment.slope(t).squaredNorm() - along * along + here.apart.dot(segment.bend(t));
-    const double newton = t - here.rate * here.distance / growth;
-    const bool within = falls <= newton && newton <= rises;
-    const double next = within ? newton : 0.5 * (falls + rises);
-    if (!(std::abs(next - t) > step_tolerance)) return next;
-    t = next;
-  }
-  return t;
-}
 
 /// The gaps, and their rates, from four points of a segment to the skin of radius r about x, one in
 /// each lane. The points are evenly spaced from the start to the end of the segment.

@@ -29,6 +29,7 @@ void observe_placed(const Model& model, const State& state, const Scene& scene,
   const double near = closing_speed * scene.constraints.baumgarte_speed * scene.time.step;
   find_contacts(o.segments, scene.contact, near, search, o.contact);
   o.ends = touching_ends(o.segments, o.contact.contacts, scene, o.patches);
+  find_flesh(model, scene, o.kin, o.segments, o.contact, o.flesh);
   o.penetration = std::max(0.0, -o.contact.least_gap);
   visit_plane_gaps(model, o.kin,
                    [&](const PlaneGap& at) { o.penetration = std::max(o.penetration, -at.gap); });

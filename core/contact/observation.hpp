@@ -8,6 +8,7 @@
 #include "core/chain/state.hpp"
 #include "core/contact/contact.hpp"
 #include "core/contact/ends.hpp"
+#include "core/contact/flesh.hpp"
 #include "core/scene/settings.hpp"
 
 namespace hagfish {
@@ -19,6 +20,7 @@ struct Observation {
   ContactSet contact;
   TouchingEnds ends;           ///< ends of the body's contact with itself
   EndPatches patches;          ///< patches that begin there
+  Flesh flesh;                 ///< empty where contact is hard
   double penetration = 0;      ///< deepest overlap of skins or with an obstacle, cm, >= 0
   double limit_violation = 0;  ///< largest angle past a limit, rad, >= 0
 };

@@ -150,12 +150,51 @@ void check_food(const TableReader& root, const Scene& scene) {
   }
 }
 
-/// No obstacle but the head plate, which a neck may be in, overlaps the body at the start.
+/// No slit between two strands that follow each other in the scene is so narrow that a section
+/// could not get through with the area that is left of it at least: a stadium of width w has the
+/// share 1 - (1 - w/d)² of a circle's. Strands that touch leave no slit.
+void check_slits(const TableReader& root, const ResolvedScene& resolved, const Model& model,
+                 const std::vector<SplineSegment>& segments) {
+  const double thickest = 2 * std::ranges::max(model.bodies, {}, &Body::radius).radius;
+  const double least = thickest * (1 - std::sqrt(1 - resolved.specimen.flesh.least_area));
+  for (const SplineSegment& a : segments) {
+    for (const SplineSegment& b : segments) {
+      if (a.obstacle < 0 || b.obstacle != a.obstacle + 1 || std::isnan(a.bound + b.bound)) continue;
+      const double width = closest_points(a, b).gap;
+      if (width <= 0 || width >= least) continue;
+      root.fail("obstacle", "the slit of " + shortest(width) + " cm between the " +
+                                model.obstacles[a.obstacle].name + " and the " +
+                                model.obstacles[b.obstacle].name +
+                                " is too narrow for the volume of the body, which passes " +
+                                shortest(least) + " cm (specimen.flesh.least_area)");
+    }
+  }
+}
+
+void check_flesh(const TableReader& root, const ResolvedScene& resolved) {
+  const FleshSettings& flesh = resolved.scene.flesh;
+  const std::vector<double>& range = resolved.specimen.flesh.stiffness_range;
+  if (!range.empty() && (range.size() != 2 || range[0] > range[1])) {
+    root.fail("specimen", "its flesh.stiffness_range must be two values that rise");
+  }
+  if (!flesh.present()) return;
+  for (const auto& [key, value] :
+       {std::pair("flesh.relaxation", flesh.relaxation), {"flesh.spacing", flesh.spacing}}) {
+    if (value == 0) root.fail(key, "must be positive where flesh.stiffness is");
+  }
+}
+
+/// No obstacle but the head plate, which a neck may be in, overlaps the body at the start, except
+/// that flesh may.
 void check_obstacles(const TableReader& root, const ResolvedScene& resolved) {
   const Scene& scene = resolved.scene;
   if (scene.obstacles.empty()) return;
   const Model model = make_hagfish(resolved.specimen, scene);
   const Observation seen = observe(model, start_state(model, scene.start), scene);
+  if (scene.flesh.present()) {
+    check_slits(root, resolved, model, seen.segments);
+    return;
+  }
   const auto check = [&](int obstacle, int body, double gap) {
     const int index = obstacle - (scene.wall.present ? 1 : 0);
     if (index >= 0 && gap < -scene.constraints.tolerance) {
@@ -241,6 +280,7 @@ void check_scene(const TableReader& root, const ResolvedScene& resolved) {
   check_muscles(root, resolved);
   check_law(root, resolved);
   check_food(root, resolved.scene);
+  check_flesh(root, resolved);
   check_obstacles(root, resolved);
   check_times(root, resolved.scene.time);
   check_expectations(root, resolved.scene);

@@ -83,6 +83,14 @@ void muscle_tissue_fields(Io& io, Specimen& s) {
 }
 
 template <class Io>
+void flesh_tissue_fields(Io& io, Specimen& s) {
+  io.table("flesh", [&tissue = s.flesh](Io& table) {
+    table.numbers("stiffness_range", tissue.stiffness_range, positive(cgs::stress));
+    table.number("least_area", tissue.least_area, within(0, 1));
+  });
+}
+
+template <class Io>
 void model_fields(Io& io, ModelSettings& s) {
   io.integer("bodies", s.bodies, within(2, 400));
   io.template choice<JointLayout>(
@@ -369,6 +377,7 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.number("pull_balance", s.pull_balance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
   io.number("penetration", s.penetration, not_negative(cgs::cm));
+  io.number("overlap", s.overlap, not_negative(cgs::cm));
   io.number("skin_fold", s.skin_fold, not_negative());
   io.angle("limit_violation", s.limit_violation, not_negative());
   io.number("head_drift", s.head_drift, not_negative(cgs::cm));
@@ -395,6 +404,11 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script, std::vector<ObstacleFile
   io.table("contact", [&](Io& t) {
     t.number("margin", s.contact.margin, not_negative(cgs::cm));
     t.length("least_arc", s.contact.least_arc, positive());
+  });
+  io.table("flesh", [&](Io& t) {
+    t.number("stiffness", s.flesh.stiffness, not_negative(cgs::stress));
+    t.number("relaxation", s.flesh.relaxation, not_negative());
+    t.number("spacing", s.flesh.spacing, not_negative(cgs::cm));
   });
   io.table("wall", [&](Io& t) {
     t.boolean("present", s.wall.present);

@@ -34,6 +34,7 @@ Specimen read_specimen_table(TableReader& table) {
   Specimen s;
   passive_fields(table, s);
   muscle_tissue_fields(table, s);
+  flesh_tissue_fields(table, s);
   table.require_all();
   specimen_fields(table, s);
   table.finish();
@@ -210,10 +211,10 @@ void close_ring(const TableReader& root, std::size_t index, ObstacleFile& ring) 
   ring.strand.closed = true;
 }
 
-/// Checks what `files` spell and turns it into obstacles, for an animal of at most `thickest` (cm)
-/// radius.
+/// Checks what `files` spell and turns it into obstacles, for an animal that passes a hole of more
+/// than the radius `narrowest` (cm).
 std::vector<Obstacle> resolve_obstacles(const TableReader& root, std::vector<ObstacleFile>& files,
-                                        double thickest) {
+                                        double narrowest) {
   using Kind = ObstacleFile::Kind;
   constexpr std::size_t longest_name = 40;
   constexpr std::size_t most_points = 2000;
@@ -235,10 +236,10 @@ std::vector<Obstacle> resolve_obstacles(const TableReader& root, std::vector<Obs
       continue;
     }
     if (file.kind == Kind::ring) {
-      if (file.inner_radius <= thickest) {
+      if (file.inner_radius <= narrowest) {
         fail("inner_radius = " + shortest(file.inner_radius) +
-             " cm: the hole is too narrow for the body, whose radius is " + shortest(thickest) +
-             " cm");
+             " cm: the hole is too narrow for the body, which needs a radius of " +
+             shortest(narrowest) + " cm");
       }
       close_ring(root, i, file);
     }
@@ -336,8 +337,12 @@ ResolvedScene read_scene_source(const SceneSource& source,
   root.finish();
   result.scene.script = resolve_script(root, script, result.specimen.length, sources);
   draw_noise(result.scene.script);
+  // In a round hole a section of flesh keeps the area of the hole.
+  const double share =
+      result.scene.flesh.present() ? std::sqrt(result.specimen.flesh.least_area) : 1;
   result.scene.obstacles = resolve_obstacles(
-      root, obstacles, std::ranges::max(result.specimen.circumference) / (2 * std::numbers::pi));
+      root, obstacles,
+      share * std::ranges::max(result.specimen.circumference) / (2 * std::numbers::pi));
   resolve_basis(root, result.specimen.length, sources, result.scene.controller.reduced_basis);
   if (result.scene.mirror) reflect(result.scene);
   check_scene(root, result);
@@ -380,6 +385,9 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
     specimen_fields(table, animal);
     passive_fields(table, animal);
     if (!animal.muscle.longitudinal_area.empty()) muscle_tissue_fields(table, animal);
+    if (animal.flesh.least_area > 0 || !animal.flesh.stiffness_range.empty()) {
+      flesh_tissue_fields(table, animal);
+    }
   });
   return writer.text();
 }

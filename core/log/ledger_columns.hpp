@@ -17,14 +17,15 @@ struct EnergyColumn {
 
 inline constexpr EnergyColumn energy_sources[] = {
     {"kinetic_energy", "kinetic energy", &EnergyLedger::kinetic},
-    {"elastic_energy", "energy in the joint springs", &EnergyLedger::elastic},
+    {"elastic_energy", "energy in the joint springs and in flesh", &EnergyLedger::elastic},
     {"gravity_energy", "potential energy, 0 at the world's origin", &EnergyLedger::gravity},
     {"work_tip", "work of the scripted force so far", &EnergyLedger::work_tip},
     {"work_active", "work of the active torque so far", &EnergyLedger::work_active}};
 
 /// What energy is lost to.
 inline constexpr EnergyColumn energy_losses[] = {
-    {"dissipated", "lost to drag and joint damping so far", &EnergyLedger::dissipated},
+    {"dissipated", "lost to drag, joint damping and damping of flesh so far",
+     &EnergyLedger::dissipated},
     {"impact_loss", "lost where bodies hit each other, a limit or what holds them, so far",
      &EnergyLedger::impacts}};
 

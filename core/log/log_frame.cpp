@@ -304,6 +304,23 @@ void declare_muscles(const Model& model, LogTable<Frame>& t) {
       [](const Frame& f) -> const auto& { return f.muscles.residual; });
 }
 
+/// /flesh: how the body is pressed.
+void declare_flesh(const Model& model, const Scene& scene, LogTable<Frame>& t) {
+  const LabelledAxis n{static_cast<hsize_t>(model.body_count()), body_labels};
+  const auto along = [&](const char* name, const char* unit, const char* description, int row) {
+    t.numbers(std::string("/flesh/") + name, {n}, {unit, description},
+              [model, settings = scene.flesh, row](const Frame& f) -> Eigen::VectorXd {
+                const Observation& seen = f.record.after.observation;
+                return flesh_along(model, settings, seen.kin, seen.flesh).row(row);
+              });
+  };
+  along("overlap", "cm", "deepest overlap of skins, or with an obstacle, at each body", 0);
+  along("pressure", "dyn/cm²",
+        "pressure at rest there: stiffness times overlap over the width of the overlap", 1);
+  t.number("/flesh/energy", {"erg", "energy stored in flesh, a part of elastic_energy"},
+           [](const Frame& f) { return f.record.after.observation.flesh.energy; });
+}
+
 /// /pull: what the head's pull at food comes to, of the means above.
 void declare_pull(LogTable<Frame>& t) {
   const std::string when =
@@ -417,6 +434,7 @@ LogTable<Frame> frame_table(const Model& model, const Scene& scene, LogLevel lev
   declare_memory(model, scene, table);
   declare_means(model, table);
   if (scene.muscle.present) declare_muscles(model, table);
+  if (scene.flesh.present()) declare_flesh(model, scene, table);
   declare_pull(table);
   declare_diagnostics(table);
   declare_energy(table);

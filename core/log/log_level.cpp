@@ -17,7 +17,8 @@ const std::vector<std::string> not_in_summaries = {"/trajectory/q",
                                                    "/mean/moments/",
                                                    "/contacts/",
                                                    "/forces/",
-                                                   "/muscle/"};
+                                                   "/muscle/",
+                                                   "/flesh/"};
 const std::vector<std::string> single = {"/trajectory/position", "/mean/forces/", "/muscle/"};
 /// What follows from other datasets, and is single at every level.
 const std::vector<std::string> always_single = {"/trajectory/curvature", "/mean/moments/"};

@@ -9,7 +9,7 @@ namespace {
 
 void set_energies(const Model& model, const ObservedState& now, EnergyLedger& ledger) {
   ledger.kinetic = kinetic_energy(model, now.observation.kin);
-  ledger.elastic = elastic_energy(model, now.state.q);
+  ledger.elastic = elastic_energy(model, now.state.q) + now.observation.flesh.energy;
   ledger.gravity = gravity_energy(model, now.observation.kin);
 }
 
@@ -50,12 +50,37 @@ double lost_at_impacts(const StepInput& in, const StepPlace& place, const StepSo
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
     const Row& row = step.rows[i];
     const double lambda = step.lambda[static_cast<Eigen::Index>(i)];
-    if (row.kind == RowKind::thigmotaxis || lambda == 0) continue;
+    if (row.kind == RowKind::thigmotaxis || lambda == 0 || row.compliance > 0) continue;
     const double change =
         row_velocity(row, step.bodies(), step.qdot) - row_velocity(row, before, in.state.qdot);
     lost += std::max(0.0, 0.5 * lambda * change);
   }
   return lost;
+}
+
+/// Takes the forces of flesh out of the works of rows: what they do is stored, as elastic energy,
+/// or lost in their dampers. Flesh that is left faster than it relaxes pushes nothing, and all that
+/// it gives up is lost. Returns the work by the law, and adds to `lost`, both over `travelled` (s).
+double book_flesh(const StepInput& in, const StepSolution& step, double travelled,
+                  ByKind<double>& works, double& lost) {
+  const double reach = in.scene.time.reach(), relaxation = in.scene.flesh.relaxation;
+  double work = 0;
+  for (std::size_t i = 0; i < step.rows.size(); ++i) {
+    const Row& row = step.rows[i];
+    const double force = step.lambda[static_cast<Eigen::Index>(i)] / in.scene.time.step;
+    if (row.compliance == 0) continue;
+    const double speed = row_velocity(row, step.bodies(), step.qdot);
+    if (force > 0) {
+      works[row.kind] -= travelled * force * speed;
+      work += travelled * (row.rhs - speed) / (row.compliance * reach) * speed;
+      lost += travelled * row.damper * speed * speed;
+    } else if (row.damper > 0) {
+      const double gap = -row.rhs * (0.5 * in.scene.time.step + relaxation);
+      const double left = std::min(0.0, gap + travelled * speed);
+      lost += 0.5 * row.damper / relaxation * (gap * gap - left * left);
+    }
+  }
+  return work;
 }
 
 }  // namespace
@@ -126,7 +151,11 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
     bias += t * (step.system.bias.col(b).head<3>().dot(by.spin) +
                  step.system.bias.col(b).tail<3>().dot(by.velocity));
   }
+  double pressed = 0;  // loss in flesh
+  const double flesh = book_flesh(in, step, t, ledger.work, pressed) +
+                       next.observation.flesh.energy - in.observation.flesh.energy;
   ledger.dissipated += t * damped;
+  ledger.dissipated += pressed;
   const double kinetic = ledger.kinetic;
   const double gravity = ledger.gravity;
   set_energies(model, next, ledger);
@@ -135,7 +164,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   // `impulse` has the loss by impacts, too. It is booked as such, and the rest is the integrator's.
   ledger.impacts += lost;
   ledger.integrator_inertia += impulse + lost;
-  ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity;
+  ledger.integrator_potential += t * stretch + fall + ledger.gravity - gravity + flesh + pressed;
   ledger.integrator_coriolis += ledger.kinetic - kinetic - moved - bias;
   if (keeps_momentum(in)) {
     ledger.integrator_translation +=

@@ -17,11 +17,12 @@ namespace hagfish {
 /// Energies in erg. Works, dissipated and integrator terms are running totals.
 struct EnergyLedger {
   double initial = 0;  ///< kinetic + elastic + gravity at the start
-  double kinetic = 0, elastic = 0, gravity = 0;
+  double kinetic = 0, gravity = 0;
+  double elastic = 0;  ///< energy in joint springs and flesh
   double work_tip = 0;
   double work_active = 0;  ///< work of the active torque of the muscles
-  ByKind<double> work;     ///< work of the constraint forces
-  double dissipated = 0;   ///< loss by drag and joint damping
+  ByKind<double> work;     ///< work of the constraint forces, without those of flesh
+  double dissipated = 0;   ///< loss by drag, joint damping and damping of flesh
   /// Energy lost where bodies hit each other, a limit or a clamp, or where Eq. 6 stops or starts
   /// them at once. Midpoint rule: (u - x)'M Δv, since u = x without impacts. Euler's rule knows the
   /// forces of rows over whole steps only: Σ ½ λ C Δv of the rows, except those of Eq. 6, that come
@@ -32,7 +33,7 @@ struct EnergyLedger {
   /// of the impulse that has no displacement to work over.
   double integrator_inertia = 0;
   /// Gain by the implicit springs and their numerical damping, t u' K (½ t u - r x - β (2 x - v))
-  /// (energy.cpp), and by gravity over the curved path.
+  /// (energy.cpp), by gravity over the curved path, and by flesh, whose points change along it.
   double integrator_potential = 0;
   /// Change of M along the step against the work of the Coriolis force. By the midpoint rule, what
   /// its passes leave (BiasPower).

@@ -136,8 +136,8 @@ void solve_along_path(const Attempt& step) {
 }
 
 /// Ends a step whose path still overlaps where the strands meet. The rest of its motion is left
-/// out, and the next step, with strands close, can see and stop them. Returns the time travelled,
-/// s.
+/// out, and the next step, with strands close, can see and stop them. Flesh may overlap. Returns
+/// the time travelled, s.
 double end_where_strands_meet(const Attempt& step) {
   const auto& [in, sim, record] = step;
   const double stride = in.scene.constraints.stride;
@@ -149,7 +149,8 @@ double end_where_strands_meet(const Attempt& step) {
   // The largest overlap that corrections leave, and half of an earlier overlap. On a long path,
   // whose rows ask for too little (add_missed_rows), there may be more.
   const double left = samples > 1 ? std::max(before, 3 * in.scene.constraints.tolerance) : allowed;
-  if (!looks_ahead(in.scene) || (record.crossing <= allowed && penetration <= left)) {
+  if (in.scene.flesh.present() || !looks_ahead(in.scene) ||
+      (record.crossing <= allowed && penetration <= left)) {
     return step.h();
   }
   const int count = std::max(least_samples, samples);

@@ -89,6 +89,17 @@ struct ContactSettings {
   double least_arc = 2.968;
 };
 
+/// Flesh that yields where it is pressed (addition): skins overlap, and points along the strands
+/// press them apart, each as a spring and a damper side by side (Kelvin-Voigt, contact/flesh.hpp).
+struct FleshSettings {
+  /// Normal force per cm of contact and cm of overlap, k', dyn/cm^2; 0: contact is hard.
+  double stiffness = 0;
+  double relaxation = 0;  ///< damping over stiffness, tau, s
+  double spacing = 0;     ///< distance of points along a strand, cm
+
+  bool present() const { return stiffness > 0; }
+};
+
 /// The tank's head plate, the plane x = 0: the first of the obstacles (obstacles_of).
 struct WallSettings {
   bool present = true;
@@ -418,7 +429,8 @@ struct ExpectSettings {
   double pull_drift = 0.4;            ///< difference between the means of both halves, of the mean
   double pull_balance = 0.005;        ///< difference of the plate's mean force and the pull, of it
   double speed_share = 0.95;          ///< least share of sliding steps with Eq. 6 met without slack
-  double penetration = 0.0015;        ///< deepest at any step, cm
+  double penetration = 0.0015;        ///< deepest at any step where contact is hard, cm
+  double overlap = 0.4;               ///< deepest at any step where there is flesh, cm
   double skin_fold = 0;               ///< largest skin_fold() while the knot is held; 0: no bound
   double limit_violation = 1.745e-5;  ///< largest at any step, rad (0.001 degrees)
   double head_drift = 1e-6;           ///< largest at any step while clamped, cm
@@ -445,6 +457,7 @@ struct Scene {
   DragSettings drag;
   ConstraintSettings constraints;
   ContactSettings contact;
+  FleshSettings flesh;
   WallSettings wall;
   std::vector<Obstacle> obstacles;  ///< others than the head plate
   StartSettings start;

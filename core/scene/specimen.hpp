@@ -18,6 +18,16 @@ struct MuscleTissue {
   double oblique_angle = 0;          ///< angle of the oblique fibres to the body's axis, rad
 };
 
+/// How the body yields to pressure from the side, known or guessed.
+struct FleshTissue {
+  /// Least and largest FleshSettings::stiffness that the animal may have, dyn/cm^2; empty where
+  /// nothing is said of flesh.
+  std::vector<double> stiffness_range;
+  /// Share of the area of a section that is left of it at least, as blood and flesh give way along
+  /// the body while the skin does not stretch; 0 where nothing is said.
+  double least_area = 0;
+};
+
 /// A measured specimen (paper, Table 1; what that does not have, by other sources). Profiles are
 /// linear between stations and constant outside.
 struct Specimen {
@@ -38,6 +48,7 @@ struct Specimen {
   /// forms, dyn cm^2 s.
   std::vector<double> bending_stiffness, bending_damping, twist_stiffness, twist_damping;
   MuscleTissue muscle;
+  FleshTissue flesh;
 };
 
 /// Value at `fraction` of the length of a profile given at `station`.

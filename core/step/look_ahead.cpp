@@ -42,6 +42,7 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d&
 
 bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observation& there,
                      double t, StepSolution& step) {
+  if (in.scene.flesh.present()) return false;
   const ConstraintSettings& settings = in.scene.constraints;
   const Observation& now = in.observation;
   const double h = in.scene.time.step;

@@ -34,7 +34,7 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d&
 /// Baumgarte gain leaves of an earlier overlap. No row asks for h C q̇ over `stride`. The first
 /// added row of a contact replaces the row of the step's start. Later rows come on top of it, since
 /// strands turn about the points of one row and may meet elsewhere. A plane has one row per body:
-/// the new row replaces it. Returns whether any row was added.
+/// the new row replaces it. Flesh may overlap and gets none. Returns whether any row was added.
 bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observation& there,
                      double t, StepSolution& step);
 

@@ -84,6 +84,21 @@ void paper_equation_1(const StepInput& in, const StepPlace& place, PrimalQp& qp)
   qp.g = M * state.qdot + h * f;
 }
 
+/// A flesh row C v + c λ >= d is C v + s >= d with a velocity s of its own, at the price ½ s²/c.
+void add_yields(const std::vector<Row>& unilateral, PrimalQp& qp) {
+  for (Eigen::Index i = 0; i < qp.d.size(); ++i) {
+    const double compliance = unilateral[i].compliance;
+    if (compliance == 0) continue;
+    const Eigen::Index n = qp.g.size();
+    qp.H.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 1, n + 1));
+    qp.g.conservativeResizeLike(Eigen::VectorXd::Zero(n + 1));
+    qp.G.conservativeResizeLike(Eigen::MatrixXd::Zero(qp.G.rows(), n + 1));
+    qp.C.conservativeResizeLike(Eigen::MatrixXd::Zero(qp.C.rows(), n + 1));
+    qp.H(n, n) = 1 / compliance;
+    qp.C(i, n) = 1;
+  }
+}
+
 }  // namespace
 
 PrimalQp paper_problem(const StepInput& in, const StepPlace& place, const std::vector<Row>& rows) {
@@ -103,6 +118,7 @@ PrimalQp paper_problem(const StepInput& in, const StepPlace& place, const std::v
   qp.C = dense_rows(in.model, place.kin, unilateral);
   qp.d = column(unilateral, &Row::rhs);
   qp.cap = column(unilateral, &Row::upper);
+  add_yields(unilateral, qp);
   return qp;
 }
 
@@ -123,6 +139,7 @@ State paper_step(const StepInput& in, const std::vector<Row>& rows,
   } else {
     v = solve(qp);  // Eq. 4: min ½ v'Hv - g'v, Gv = e, Cv >= d
   }
+  v.conservativeResize(in.model.nv());
   return {advance(in.state.q, v, in.scene.time.step), v};  // Eq. 2
 }
 

@@ -23,7 +23,8 @@ Eigen::Matrix3Xd centre_jacobian(const Model& model, const Kinematics& kin, int 
 Eigen::MatrixXd dense_rows(const Model& model, const Kinematics& kin, const std::vector<Row>& rows);
 
 /// H and g of Eq. 1 at `place`; G, e, C and d of Eqs. 3 and 4 from `rows`, in their order. `cap`
-/// has the upper bounds of the multipliers (soft rows, an addition to the paper).
+/// has the upper bounds of the multipliers (soft rows, an addition to the paper). Behind v, rows of
+/// flesh have a velocity each by which they yield.
 PrimalQp paper_problem(const StepInput& in, const StepPlace& place, const std::vector<Row>& rows);
 
 /// The step to the new state by Eq. 1, 3 or 4, whichever `rows` ask for, and Eq. 2. `solve` returns

@@ -97,7 +97,9 @@ void measure_rows(const RowProblem& problem, ReportStorage& storage, StepSolutio
   const auto m = static_cast<Eigen::Index>(step.rows.size());
   step.excess.resize(m);
   for (Eigen::Index i = 0; i < m; ++i) {
-    step.excess[i] = row_velocity(step.rows[i], step.bodies(), step.qdot) - step.rows[i].rhs;
+    const Row& row = step.rows[i];
+    step.excess[i] = row_velocity(row, step.bodies(), step.qdot) - row.rhs +
+                     (row.compliance > 0 ? row.compliance * step.lambda[i] : 0);
   }
   // The scale of b over the whole problem: where a prescribed row binds alone, it is its b over its
   // scale.

@@ -59,9 +59,10 @@ struct StepSolution {
   std::vector<PathRow> path_rows;  ///< rows that were added along the step's path
   Eigen::Index prescribed = 0;     ///< number of prescribed rows, the first of `rows`
   Eigen::VectorXd lambda;          ///< their multipliers, dyn s or dyn cm s
-  Eigen::VectorXd excess;          ///< C q̇ - d of each row at the solution, cm/s or rad/s
-  int active = 0;                  ///< rows with a force
-  int iterations = 0;              ///< iterations of the back end, all rounds together
+  /// C q̇ - d of each row at the solution, with the yield of flesh, cm/s or rad/s.
+  Eigen::VectorXd excess;
+  int active = 0;      ///< rows with a force
+  int iterations = 0;  ///< iterations of the back end, all rounds together
   /// QP rounds. Each adds violated rows and releases prescribed limits with λ < 0.
   int rounds = 0;
   /// (H x - g) / reach without the active torque in H and g, nv; x is mean_velocity. It follows

@@ -1,6 +1,7 @@
 #include "experiments/audit/audit.hpp"
 
 #include "experiments/audit/audit_activation.hpp"
+#include "experiments/audit/audit_flesh.hpp"
 #include "experiments/audit/audit_forces.hpp"
 #include "experiments/audit/audit_forward_inverse.hpp"
 #include "experiments/audit/audit_frames.hpp"
@@ -22,16 +23,18 @@ void append(std::vector<Finding>& findings, const std::vector<Finding>& more) {
 class StepAudits {
  public:
   explicit StepAudits(const LogContents& log)
-      : forces_(log), activations_(log), forward_inverse_(log) {}
+      : forces_(log), flesh_(log), activations_(log), forward_inverse_(log) {}
 
   void see(const AuditedFrame& frame) {
     forces_.see(frame);
+    flesh_.see(frame);
     activations_.see(frame);
     if (frame.begins_step) forward_inverse_.see(frame);
   }
 
   std::vector<Finding> findings() const {
     std::vector<Finding> findings = forces_.findings();
+    append(findings, flesh_.findings());
     append(findings, activations_.findings());
     findings.push_back(forward_inverse_.finding());
     return findings;
@@ -39,6 +42,7 @@ class StepAudits {
 
  private:
   ForceAudit forces_;
+  FleshAudit flesh_;
   ActivationAudit activations_;
   ForwardInverseAudit forward_inverse_;
 };

@@ -112,7 +112,7 @@ void ForceAudit::see_contacts(const AuditedFrame& frame) {
       shape_.insert("/contacts");
       continue;
     }
-    const Eigen::Vector3d normal = placed_contact(model, frame.kin, frame.segments, one).normal;
+    const Eigen::Vector3d normal = push_of(log_, frame, one);
     (one.obstacle < 0 ? contact : wall) +=
         force_of(model, frame.kin, motion_row(model, normal, one.a, one.b), one.force);
   }

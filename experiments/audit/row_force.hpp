@@ -3,6 +3,7 @@
 
 #include "core/step/rows/row.hpp"
 #include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/logged_contacts.hpp"
 
 namespace hagfish {
 
@@ -13,6 +14,10 @@ Row motion_row(const Model& model, const Eigen::Vector3d& direction, double a, d
 /// The contact of two spline points, by their parameters, on `segments`.
 Contact contact_of(const Model& model, const std::vector<SplineSegment>& segments, double a,
                    double b);
+
+/// The direction in which a logged contact pushes in the step at a frame (flesh_rows.hpp).
+Eigen::Vector3d push_of(const LogContents& log, const AuditedFrame& frame,
+                        const LoggedContact& contact);
 
 /// C' λ of one row, generalised (nv).
 Eigen::VectorXd force_of(const Model& model, const Kinematics& kin, const Row& row, double lambda);

@@ -41,6 +41,8 @@ const std::vector<IdleKey>& idle_keys() {
     return !has_script(s, Kind::curvature) && has_law(s, {"paper", "all_contacts", "knot_speed"});
   };
   const auto no_spring = [](const Scene& s) { return !has_script(s, Kind::position); };
+  const auto hard = [](const Scene& s) { return !s.flesh.present(); };
+  const char* const no_flesh = "flesh.stiffness is 0: contact is hard";
   const char* const no_rows = "controller.law asks for no speeds of Eq. 6";
   const char* const of_midpoint = "only time.rule = \"midpoint\" reads it";
   const char* const of_curvature = "only script.kind = \"curvature\" reads it";
@@ -73,6 +75,11 @@ const std::vector<IdleKey>& idle_keys() {
       {"constraints.corrections",
        [](const Scene& s) { return s.constraints.activation == Activation::violated; },
        "constraints.activation = \"violated\" corrects no step"},
+      {"flesh.relaxation", hard, no_flesh},
+      {"flesh.spacing", hard, no_flesh},
+      {"expect.overlap", hard, no_flesh},
+      {"expect.penetration", [](const Scene& s) { return s.flesh.present(); },
+       "flesh may overlap: expect.overlap bounds it"},
       {"wall.neck", [](const Scene& s) { return !s.wall.present; }, "wall.present is false"},
       {"muscle.activation_time",
        [](const Scene& s) {

@@ -62,6 +62,13 @@ std::vector<std::string> odd_things(const ResolvedScene& scene) {
                     "scripts may not tie this animal",
                     scene.specimen.length, longest));
   }
+  const std::vector<double>& range = scene.specimen.flesh.stiffness_range;
+  const double stiffness = scene.scene.flesh.stiffness;
+  if (stiffness > 0 && !range.empty() && (stiffness < range[0] || stiffness > range[1])) {
+    odd.push_back(
+        fmt::format("flesh.stiffness = {:g} dyn/cm^2 is not what the animal may have, {:g} to {:g}",
+                    stiffness, range[0], range[1]));
+  }
   return odd;
 }
 

@@ -18,7 +18,7 @@ namespace hagfish {
 namespace {
 
 constexpr double between_times = 0.35;  // s of the soft body
-constexpr int stations = 25;
+constexpr int station_count = 25;
 constexpr double time_to_slide = 28;  // s, as the base scene has behind its program
 
 /// The scene of a found program.
@@ -116,7 +116,7 @@ FoundScene found_scene(const Model& led, const Shapes& shapes, const std::string
   for (double& one : time) one *= slower;
   const double end = time.back();
   const int times = 1 + static_cast<int>(std::ceil(shapes.time.back() / between_times));
-  const ProgramFit fit = fit_program(led, time, shapes.q, times, stations);
+  const ProgramFit fit = fit_program(led, time, shapes.q, times, station_count);
   FoundScene found{"", curvature_csv(fit.program), specimen, knot, end};
   found.scene = scene_text(found);
   return found;

@@ -16,7 +16,7 @@ FORMAT = "hagfish-log"
 VERSION = 1
 KINDS = ("twist", "bend_y", "bend_z")  # of hinges: about X, Y and Z
 SINCE = ("/trajectory/curvature", "/mean/moments/thigmotaxis", "/mean/moments/active")  # version 0.3
-FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "muscle", "pull", "knot", "diagnostics")
+FRAME_GROUPS = ("trajectory", "forces", "thigmotaxis", "mean", "muscle", "flesh", "pull", "knot", "diagnostics")
 
 
 class LogError(Exception):

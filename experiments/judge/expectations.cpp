@@ -46,8 +46,9 @@ Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
   return {name, of > 0 && count == of, text, number(count), number(of), unit};
 }
 
-Criterion penetration_criterion(const ExpectSettings& expect, double deepest) {
-  return {"penetration", deepest, expect.penetration, "cm"};
+Criterion penetration_criterion(const Scene& scene, double deepest) {
+  return scene.flesh.present() ? Criterion{"overlap of flesh", deepest, scene.expect.overlap, "cm"}
+                               : Criterion{"penetration", deepest, scene.expect.penetration, "cm"};
 }
 
 Criterion skin_fold_criterion(const ExpectSettings& expect, double largest) {

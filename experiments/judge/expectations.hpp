@@ -44,8 +44,9 @@ Finding judged_over(const Criterion& criterion, const std::string& scope = "");
 Finding all_of(const std::string& name, std::int64_t count, std::int64_t of,
                const std::string& unit, const std::string& text);
 
-/// Deepest overlap of skins at any step, cm.
-Criterion penetration_criterion(const ExpectSettings& expect, double deepest);
+/// Deepest overlap of skins at any step, cm; of flesh, which may overlap, against a bound of its
+/// own.
+Criterion penetration_criterion(const Scene& scene, double deepest);
 /// Largest skin_fold() while the knot is held, 0 where it never is.
 Criterion skin_fold_criterion(const ExpectSettings& expect, double largest);
 /// Furthest that a joint is past its limit at any step, rad; judged in degrees.

@@ -77,7 +77,7 @@ constexpr RunFigure figures[] = {
     {"work_tip", energy, "of the scripted force on the tail, in all", &RunSummary::work_tip},
     {"work_active", energy, "of the muscles, in all", &RunSummary::work_active},
     {"work_thigmotaxis", energy, "of f_thigmo, in all", &RunSummary::work_thigmotaxis},
-    {"dissipated", energy, "lost to water drag and joint damping, in all",
+    {"dissipated", energy, "lost to water drag, joint damping and damping of flesh, in all",
      &RunSummary::dissipated}};
 
 /// Largest of the hinges; not of the first frame, whose means are nan.
@@ -170,7 +170,7 @@ std::vector<Finding> Judge::of_motion() const {
     findings.push_back(judged_over(torque_criterion(scene_, largest_torque_),
                                    "largest of a hinge while the knot slides or pulls"));
   }
-  findings.push_back(every_step(penetration_criterion(expect, worst_.penetration)));
+  findings.push_back(every_step(penetration_criterion(scene_, worst_.penetration)));
   findings.push_back(every_step(limits_criterion(expect, worst_.limit_violation)));
   findings.push_back(every_step(head_drift_criterion(expect, worst_.head_drift)));
   findings.push_back(knot_.skin());

@@ -148,7 +148,7 @@ Status StressJudge::ended() const {
   }
   const double depth = std::max(figures_.penetration, figures_.path_penetration);
   for (const auto& [criterion, outcome] :
-       {std::pair{penetration_criterion(expect, depth), Outcome::penetration},
+       {std::pair{penetration_criterion(scene_, depth), Outcome::penetration},
         {limits_criterion(expect, figures_.limit_violation), Outcome::limits},
         {kkt_criterion(expect, kkt_), Outcome::solver_failed}}) {
     if (!criterion.met()) {

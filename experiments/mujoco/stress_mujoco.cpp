@@ -52,6 +52,7 @@ std::string not_in_mujoco(const Scene& scene) {
   if (scene.model.bending_limit == BendingLimit::cone) {
     return "limits on the total angle of a joint are not in MuJoCo";
   }
+  if (scene.flesh.present()) return "flesh is not in MuJoCo";
   if (!scene.obstacles.empty()) return "obstacles do not hold bodies in MuJoCo as they do here";
   return scene.wall.present ? "the head plate is not in the mirrored model" : "";
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/step/paper_step.hpp"
+#include "core/step/rows/flesh_rows.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/random_qp.hpp"
 #include "tests/support/row_lists.hpp"
@@ -35,8 +36,12 @@ std::vector<Row> every_row(const StepInput& in) {
   };
   if (control.clamp_head) append(head_rows(state, scene.constraints, h));
   append(thigmotaxis_rows(model, control.thigmotaxis, scene.controller, now.kin, h));
-  append(contact_rows(model, now.contact, scene.constraints, h));
   append(limit_rows(model, state, scene.constraints, h));
+  if (scene.flesh.present()) {
+    append_flesh_rows(in, nullptr, {state.qdot, now.kin.velocities(), INFINITY, INFINITY}, all);
+    return all;
+  }
+  append(contact_rows(model, now.contact, scene.constraints, h));
   append(plane_rows(model, now.kin, scene.constraints, h));
   return all;
 }

@@ -55,8 +55,9 @@ class Impacts {
 
 /// Finds the rows that push. Where a force begins or stays, it stops the approach, so that the step
 /// ends with the velocities that these rows ask for. Prescribed rows go into prescribed_rows_ and
-/// jumps_, the others into impact_rows_, with their changes of velocity. The force of a row at its
-/// upper bound acts at once (saturated_rows_). Returns false if no velocity changes.
+/// jumps_, the others into impact_rows_, with their changes of velocity. Flesh stops nothing at
+/// once. The force of a row at its upper bound acts at once (saturated_rows_). Returns false if no
+/// velocity changes.
 bool Impacts::find() {
   bool any = false;
   for (std::size_t i = 0; i < step_.rows.size(); ++i) {
@@ -68,7 +69,7 @@ bool Impacts::find() {
       saturated_rows_.push_back(i);
       any = true;
     }
-    if (!row.prescribed && !pushes(row, lambda)) continue;
+    if (!row.prescribed && (!pushes(row, lambda) || row.compliance > 0)) continue;
     const double change = row.rhs - row_velocity(row, place_.motion.before(), in_.state.qdot);
     any = any || change != 0;
     if (row.prescribed) {

@@ -53,6 +53,7 @@ void assemble_dual(const Model& model, const Kinematics& kin, const ArticulatedF
   factor.half_solve(model, kin, columns);
   columns.gram(qp.A);
   clear_immovable(model, rows, qp.A);
+  for (Eigen::Index i = 0; i < m; ++i) qp.A(i, i) += rows[i].compliance;
 }
 
 BoxQp whole_dual(const Model& model, const Kinematics& kin, const StepSystem& system,

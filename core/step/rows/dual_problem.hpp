@@ -1,4 +1,5 @@
-// A set of rows as the box QP in their multipliers: A = C H⁻¹ C', b = d - C q̇*.
+// A set of rows as the box QP in their multipliers: A = C H⁻¹ C' + the compliance
+// of flesh on the diagonal, b = d - C q̇*.
 #pragma once
 
 #include <span>

@@ -58,6 +58,12 @@ std::string row_name(const Model& model, const Row& row) {
     case Of::plane:
     case Of::strand:
       return fmt::format("{} at body {}", model.obstacles[row.obstacle].name, first);
+    case Of::flesh: {
+      const BetweenPoints& points = row.points();
+      return row.obstacle < 0
+                 ? fmt::format("flesh of bodies {} and {}", points.a.first, points.b.first)
+                 : fmt::format("{} at body {}", model.obstacles[row.obstacle].name, points.a.first);
+    }
     case Of::along_a:
     case Of::along_b:
       break;

@@ -45,14 +45,15 @@ struct RowId {
     plane,
     strand,
     along_a,
-    along_b
+    along_b,
+    flesh
   };
   Of of = Of::head;
   KnotEnd end = KnotEnd::neither;  ///< end of a row of Eq. 6
   /// Head and limits: the dof. Plane: body, obstacle. Contacts, strands, and rows of Eq. 6 at
-  /// neither end of the knot: segments.
+  /// neither end of the knot: segments. Flesh: the point's segment, its foot's segment.
   int first = 0, second = 0;
-  int number = 0;  ///< cones, contacts and planes may have several rows in a step
+  int number = 0;  ///< cones, contacts, planes and flesh may have several rows in a step
 
   auto operator<=>(const RowId&) const = default;
 };
@@ -83,7 +84,7 @@ struct OverPatch : BetweenPoints {
   std::vector<BodyWrench> wrenches;  ///< C' on each body that takes part, rising
 };
 
-/// One row of C q̇ >= d, or of C q̇ = d.
+/// One row of C q̇ >= d, of C q̇ = d, or of C q̇ + compliance λ >= d.
 struct Row {
   RowKind kind = RowKind::limit;
   RowId id;
@@ -96,6 +97,9 @@ struct Row {
   double impact = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
+  /// Flesh yields: C q̇ + compliance λ >= d, cm/s over dyn s; 0 in hard rows (flesh_rows.hpp).
+  double compliance = 0;
+  double damper = 0;  ///< damping of flesh, k' w τ, dyn s/cm; 0 before skins touch
   /// A unit row whose velocity is prescribed, C q̇ = d; λ is its reaction.
   bool prescribed = false;
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/step/rows/contact_rows.hpp"
+#include "core/step/rows/flesh_rows.hpp"
 #include "core/step/rows/joint_rows.hpp"
 
 namespace hagfish {
@@ -25,6 +26,11 @@ void append_unilateral_rows(const StepInput& in, const StepPlace& place, const N
                             Condition is_considered, std::vector<Row>& rows) {
   const ConstraintSettings& settings = in.scene.constraints;
   const double h = in.scene.time.step;
+  if (in.scene.flesh.present()) {
+    append_flesh_rows(in, place.segments, wanted, rows);
+    append_limit_rows(in.model, in.state, settings, h, wanted, rows);
+    return;
+  }
   const auto append = [&](const Contact& contact) {
     append_contact_row(in.model, contact, place.segments, settings, h, wanted, rows);
   };

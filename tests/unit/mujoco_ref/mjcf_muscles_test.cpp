@@ -1,6 +1,7 @@
 // The muscles in MuJoCo: tendons and actuators that make the torques of the core's, state by state.
 #include <gtest/gtest.h>
 
+#include "core/log/hdf5/hdf5_reader.hpp"
 #include "mujoco_ref/agreement.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "mujoco_ref/mjcf.hpp"

@@ -150,6 +150,8 @@ ResolvedScene odd_scene() {
         &animal.muscle.longitudinal_area, &animal.muscle.oblique_area}) {
     *profile = odd.numbers(3);
   }
+  animal.flesh.stiffness_range = {odd.number(), 50 + odd.number()};
+  animal.flesh.least_area /= 3;
   return result;
 }
 

@@ -61,6 +61,27 @@ TEST_F(AuditObstacles, EachFigureIsWatched) {
   }
 }
 
+TEST(AuditOfFlesh, ForcesAndEnergyAreWatched) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "log.h5";
+  write_log(file, stored_scene({"obstacle=[{kind='strand', name='pole', radius=0.5, "
+                                "points=[[40, -1.4, -5], [40, -1.4, 5]]}]",
+                                "flesh.stiffness=1e5", "flesh.relaxation=0.015",
+                                "flesh.spacing=0.212", "time.step=0.005", "time.duration=0.4",
+                                "knot.votes=5", "expect.energy_loss=0.2",
+                                "expect.knot=", "expect.types=[]", "expect.slide_distance=0"}));
+  EXPECT_EQ(audit_objections(file), "");
+  for (const std::string path : {"/contacts/force", "/flesh/energy"}) {
+    const auto before =
+        rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, [](std::vector<double>& values) {
+          for (double& value : values) value *= 1.05;
+        });
+    EXPECT_NE(audit_objections(file).find(path), std::string::npos) << path;
+    rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE,
+                    [&](std::vector<double>& values) { values = before; });
+  }
+}
+
 TEST(AuditOfAHole, AHeadThatStaysInIsNotOut) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder / "log.h5";

@@ -11,6 +11,7 @@ namespace hagfish::expectations_test {
 ExpectSettings expected() {
   ExpectSettings expect;
   expect.penetration = 0.25;
+  expect.overlap = 0.75;
   expect.limit_violation = std::numbers::pi / 4;
   expect.head_drift = 0.125;
   expect.kkt = 0.5;
@@ -25,8 +26,12 @@ ExpectSettings expected() {
 // A figure at its bound is met, and one beyond it is not.
 TEST(Expectations, HoldEachFigureAgainstItsOwnBound) {
   const ExpectSettings e = expected();
+  Scene hard, soft;
+  hard.expect = soft.expect = e;
+  soft.flesh.stiffness = 1;
   for (const auto& [at, beyond] :
-       {std::pair{penetration_criterion(e, 0.25), penetration_criterion(e, 0.2501)},
+       {std::pair{penetration_criterion(hard, 0.25), penetration_criterion(hard, 0.2501)},
+        {penetration_criterion(soft, 0.75), penetration_criterion(soft, 0.7501)},
         {limits_criterion(e, std::numbers::pi / 4), limits_criterion(e, 0.8)},
         {head_drift_criterion(e, 0.125), head_drift_criterion(e, 0.1251)},
         {kkt_criterion(e, 0.5), kkt_criterion(e, 0.51)},
@@ -45,7 +50,9 @@ TEST(Expectations, WhatDidNotHappenIsNotMet) {
   ExpectSettings e = expected();
   e.speed_share = 0;
   EXPECT_FALSE(eq6_criterion(e, 0, 0).met());
-  EXPECT_FALSE(penetration_criterion(e, NAN).met());
+  Scene scene;
+  scene.expect = e;
+  EXPECT_FALSE(penetration_criterion(scene, NAN).met());
   EXPECT_FALSE(pull_balance_criterion(e, 0, 0).met());
 }
 

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Through a slit narrower than the body: pulled, by a knot behind it, and by a wave. Leaves tables/slit.csv, slit_meshes.csv,
+# slit_knot.csv, slit_wave.csv and slit.png. Stopped, it goes on where it was.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
+
+# once NAME ARGUMENTS...: a run whose log is kept. One that fails is a result, too.
+once() {
+  [[ -e $out/runs/$1.done ]] && return
+  "$hagfish" run "${@:2}" --out "$out/runs/$1.h5" --force --quiet || (($? == 1))
+  touch "$out/runs/$1.done"
+}
+
+mkdir -p "$out/runs" "$out/scenes"
+for share in 0.9 0.8 0.7 0.6 0.5; do
+  draw slit_scene.py "$share" slit "$out/scenes/pulled_$share.toml"
+  draw slit_scene.py "$share" hole_overhand "$out/scenes/knot_$share.toml"
+  for stiffness in 6e4 1e5 3e5; do
+    once "pulled_${stiffness}_$share" "$out/scenes/pulled_$share.toml" --qp active-set --set "flesh.stiffness=$stiffness"
+  done
+  once "knot_1e5_$share" "$out/scenes/knot_$share.toml" --qp active-set
+done
+draw slit_scene.py 1.2 hole_overhand "$out/scenes/knot_1.2.toml"
+once knot_1e5_1.2 "$out/scenes/knot_1.2.toml" --qp active-set
+for share in 0.9 0.7 0.5; do
+  once "bodies_200_$share" "$out/scenes/pulled_$share.toml" --qp active-set --set model.bodies=200
+  once "step_5_$share" "$out/scenes/pulled_$share.toml" --qp active-set --set time.step=0.005
+done
+for wave in "0.5 1 1" "0.7 0.6 0.5"; do
+  for share in 1.2 0.9 0.8 0.7; do
+    name=wave_${wave// /_}_$share
+    # shellcheck disable=SC2086 # three numbers
+    draw slit_wave.py $wave "$share" "$out/scenes/$name.csv" "$out/scenes/$name.toml"
+    once "$name" "$out/scenes/$name.toml" --qp active-set
+  done
+done
+draw slit.py "$out"
