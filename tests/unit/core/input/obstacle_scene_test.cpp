@@ -84,8 +84,8 @@ TEST(ObstacleScene, RefusesWhatIsNone) {
             "s.toml:5: obstacle 1.inner_radius = 0: must be positive");
   EXPECT_EQ(
       scene_complaint(ring + "inner_radius = 0.79\nradius = 1\n"),
-      "s.toml:1: obstacle: inner_radius = 0.79 cm: the hole is too narrow for the body, which "
-      "needs a radius of 0.7957747154594768 cm");
+      "s.toml:1: obstacle: inner_radius = 0.79 cm: the hole is too narrow for the body, whose "
+      "radius is 0.7957747154594768 cm");
   EXPECT_EQ(
       scene_complaint("[[obstacle]]\nkind = 'plane'\npoint = [0, 0, 0]\nnormal = [0, 0, 0]\n"),
       "s.toml:1: obstacle: normal must not be all 0");
