@@ -238,8 +238,8 @@ std::vector<Obstacle> resolve_obstacles(const TableReader& root, std::vector<Obs
     if (file.kind == Kind::ring) {
       if (file.inner_radius <= narrowest) {
         fail("inner_radius = " + shortest(file.inner_radius) +
-             " cm: the hole is too narrow for the body, whose radius is " +
-             shortest(narrowest) + " cm");
+             " cm: the hole is too narrow for the body, whose radius is " + shortest(narrowest) +
+             " cm");
       }
       close_ring(root, i, file);
     }
