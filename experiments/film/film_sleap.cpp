@@ -11,7 +11,7 @@
 namespace hagfish {
 namespace {
 
-enum Axis : std::size_t { track, coordinate, node, frame, axes };
+enum TrackAxis : std::size_t { track, coordinate, node, frame, axes };
 using Places =
     std::array<std::size_t, axes>;  // of each axis in a dataset; `axes` where it has none
 
