@@ -215,6 +215,23 @@ struct Nearest {
   bool settled = false;
 };
 
+/// Rms distance of a run's points from where they begin, cm, of those that the first frame has.
+double moved_by(const Eigen::Matrix3Xd& seen, const Points& points) {
+  const std::vector<double>& first = points.place.front();
+  double square = 0, count = 0;
+  Eigen::Index point = 0;
+  for (const std::vector<double>& places : points.place) {
+    for (const double place : places) {
+      if (const auto same = std::ranges::find(first, place); same != first.end()) {
+        square += (seen.col(point) - seen.col(same - first.begin())).squaredNorm();
+        ++count;
+      }
+      ++point;
+    }
+  }
+  return std::sqrt(square / count);
+}
+
 /// How much more residuals weigh less than they seem, as neighbours in time are alike: (1 + r) /
 /// (1 - r) for a correlation r from one frame to the next, no less than 1.
 double likeness(const Eigen::VectorXd& residual, const Points& points) {
@@ -321,16 +338,17 @@ AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, const Film
   best = nearest_from(best->x, most_changes);
   const Eigen::MatrixXd spread = best->normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   AnimalFit found;
+  found.settled = best->settled;
+  found.rms = std::sqrt(best->residual.squaredNorm() / static_cast<double>(points.at.cols()));
+  if (const auto seen = run(best->x)) found.moved = moved_by(*seen, points);
   const double wider = std::sqrt(likeness(best->residual, points));
   for (int k = 0; k < animal_traits; ++k) {
     TraitEstimate& trait = found.trait[k];
     const double half =
         ninety * std::hypot(wider * std::sqrt(std::max(spread(k, k), 0.0)), model_error[k]);
     trait = {std::exp(best->x[k]), std::exp(best->x[k] - half), std::exp(best->x[k] + half),
-             2 * half < std::log(trait_told)};
+             found.moved > found.rms && 2 * half < std::log(trait_told)};
   }
-  found.settled = best->settled;
-  found.rms = std::sqrt(best->residual.squaredNorm() / static_cast<double>(points.at.cols()));
   return found;
 }
 

@@ -25,10 +25,12 @@ struct TraitEstimate {
 struct AnimalFit {
   std::array<TraitEstimate, animal_traits> trait;
   double rms = 0;        ///< distance of the film's points from the run, cm of the model
+  double moved = 0;      ///< rms distance of the run's points from where they begin, cm
   bool settled = false;  ///< whether the last change made less than a thousandth of a difference
 };
 
-/// Highest over lowest value of an interval of 90 % within which a film is said to tell a trait.
+/// Highest over lowest value of an interval of 90 % within which a film is said to tell a trait. A
+/// film whose body moves by less than it is off tells none.
 inline constexpr double trait_told = 4;
 
 /// The factors by which the scene's animal, without muscles, moves most like the film from its

@@ -30,8 +30,7 @@ void tell(const char* name, const TraitEstimate& trait, double of_scene, const c
     fmt::print("{}: {:.3g} times the scene's, {:.3g} to {:.3g} (90 %): {:.3g} {}\n", name,
                trait.factor, trait.low, trait.high, trait.factor * of_scene, unit);
   } else {
-    fmt::print("{}: the film does not tell (90 %: {:.2g} to {:.2g} times the scene's)\n", name,
-               trait.low, trait.high);
+    fmt::print("{}: the film does not tell\n", name);
   }
 }
 
@@ -64,6 +63,11 @@ int animal(const AnimalOptions& options) {
              film.frames.size(), size, ends_note(film, options.reading, size));
   for (const std::string& told : remarks.told) fmt::print("{}\n", told);
   for (const std::string& doubt : remarks.doubts) fmt::print("look at: {}\n", doubt);
+  if (found.moved <= found.rms) {
+    fmt::print(
+        "the body moves by {:.2g} cm (rms), no more than the film is off: it tells nothing\n",
+        found.moved);
+  }
   const bool of_specimen = scene.model.passive == PassiveSource::specimen;
   const auto first = [&](const std::vector<double>& of_animal, double of_scene) {
     return of_specimen && !of_animal.empty() ? of_animal.front() : of_scene;
