@@ -252,14 +252,15 @@ Eigen::MatrixXd let_go(const std::string& rule, bool tied, const Observer& obser
 // Nothing outside acts, so that the shape knows no frame of reference: rounding alone differs,
 // which the contacts of a knot that springs open amplify some thousand times.
 TEST_P(FreeBody, HasOneShapeForEachObserver) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();  // {} would leave it unset
   for (const bool tied : {false, true}) {
     const Eigen::MatrixXd rest = let_go(GetParam(), tied, {"at rest"});
     EXPECT_GT((rest.rightCols<1>() - rest.leftCols<1>()).lpNorm<Eigen::Infinity>(), 0.01);
     for (const Observer& observer :
          {Observer{"slow", {12, -16, 0}}, Observer{"fast", {48, 0, 64}},
-          Observer{"falling", {}, {0, 0, -981}},
+          Observer{"falling", none, {0, 0, -981}},
           Observer{"falling aside", {80, 0, 0}, {300, 0, -900}},
-          Observer{"turned", {}, {}, Eigen::Quaterniond(0.5, -0.5, 0.1, 0.7).normalized()}}) {
+          Observer{"turned", none, none, Eigen::Quaterniond(0.5, -0.5, 0.1, 0.7).normalized()}}) {
       const double off = (let_go(GetParam(), tied, observer) - rest).cwiseAbs().maxCoeff();
       std::cout << "[ FIGURE   ] " << GetParam() << (tied ? ", knot, " : ", bent, ")
                 << observer.name << ": shape off by " << off << " rad in 0.5 s\n";

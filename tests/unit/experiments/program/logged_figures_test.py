@@ -94,7 +94,8 @@ def test_muscles_hold_on_to_nothing_and_the_body_follows_the_rest_shape(tmp_path
 
 @pytest.mark.parametrize("rule", ["euler", "midpoint"])
 def test_moments_have_the_torques_of_hinges_as_their_parts(tmp_path, rule):
-    each_step = sets("time.step=0.01", "time.frame_interval=0.01")
+    h = 0.01 if rule == "euler" else 0.005  # s; at 10 ms some starts of the midpoint rule are too fast as the knot comes off
+    each_step = sets(f"time.step={h}", f"time.frame_interval={h}")
     settings = [*each_step, *sets("knot.votes=5", f"time.rule={rule}", "expect.types=[]")]
     seen = set()
     with h5py.File(logged(tmp_path, "living_overhand", *settings)) as log:
@@ -108,7 +109,7 @@ def test_moments_have_the_torques_of_hinges_as_their_parts(tmp_path, rule):
             trace = np.einsum("jkx,jkx->j", bodies[:-1], bodies[1:])
             np.testing.assert_allclose((1 + 2 * np.cos(np.linalg.norm(bend, axis=1)))[3:-3], trace[2:-3], atol=1e-6)
             if rule == "midpoint":  # whose equations hold in the middle of the step
-                angles = angles + 0.005 * log["/midway/moved"][frame - 1, ROOT:]
+                angles = angles + 0.5 * h * log["/midway/moved"][frame - 1, ROOT:]
             bodies, hinges = axes_along(angles, names)
             halfway = [np.linalg.svd(before.T + behind.T) for before, behind in zip(bodies, bodies[1:])]
             axes = np.concatenate([np.eye(3)[None], [u @ v for u, _, v in halfway]])  # the rotation nearest to the mean
