@@ -104,8 +104,7 @@ void ForwardInverseAudit::see(const AuditedFrame& frame) {
 
 Finding ForwardInverseAudit::finding() const {
   return judged_over(
-      {"forward-inverse", driven_->largest_error,
-       forward_inverse_tolerance, "of scale"},
+      {"forward-inverse", driven_->largest_error, forward_inverse_tolerance, "of scale"},
       fmt::format("q̇ after MuJoCo's step under the logged forces, of q̇ or what one kind of them "
                   "alone makes of it, at {} frames",
                   driven_->seen));

@@ -17,9 +17,9 @@ double mechanical_energy(const Model& model, const State& state, const Kinematic
 
 /// Runs `scene` by MuJoCo's `integrator` (mjINT_...) from its start to its end: its own soft
 /// contacts and limits (margin 0, all else at its defaults; where `hard`, as stiff as it allows),
-/// the scene's drag and script as forces of the step's beginning. The core's guards hold here too. `judge` sees each step; a call of
-/// `out_of_time` ends the run where it says so. Returns whether it came to its end. Throws
-/// StepError where MuJoCo finds its state bad or a guard is passed.
+/// the scene's drag and script as forces of the step's beginning. The core's guards hold here too.
+/// `judge` sees each step; a call of `out_of_time` ends the run where it says so. Returns whether
+/// it came to its end. Throws StepError where MuJoCo finds its state bad or a guard is passed.
 bool run_in_mujoco(const Model& model, const Scene& scene, const State& start, int integrator,
                    bool hard, const std::function<bool()>& out_of_time, StressJudge& judge);
 

@@ -192,8 +192,8 @@ double head_end_at_slide(const std::string& h) {
 }
 
 // Over nine starts the overhand makes 0.6 to 3 % of its energy as it comes off, the other two less
-// than 1 %. By Euler's rule the overhand makes over 10 %. The bound is that of the worst start and a
-// third, since the motion is chaotic and differs between processors.
+// than 1 %. By Euler's rule the overhand makes over 10 %. The bound is that of the worst start and
+// a third, since the motion is chaotic and differs between processors.
 TEST(KnotScenesByTheMidpointRule, StiffBodiesLetGoWithoutEnergyOfTheirOwn) {
   for (const char* scene : {"living_overhand", "living_figure_eight", "living_double_overhand"}) {
     SCOPED_TRACE(scene);

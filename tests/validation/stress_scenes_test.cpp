@@ -1,5 +1,5 @@
-// The scenes of experiments/results/stability/study.sh: each is read, runs for four steps by the core and
-// in MuJoCo, and ends in the outcome that the scene is made for.
+// The scenes of experiments/results/stability/study.sh: each is read, runs for four steps by the
+// core and in MuJoCo, and ends in the outcome that the scene is made for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
