@@ -12,8 +12,8 @@ namespace {
 
 /// Rows meet their law to what the back end solves, here of each force.
 constexpr double force_tolerance = 1e-5;
-/// Of the energy: gaps are sampled.
-constexpr double energy_tolerance = 0.01;
+/// Of energy, overlap and pressure: gaps are sampled.
+constexpr double search_tolerance = 0.01;
 constexpr int samples = 50;      ///< of a segment
 constexpr double across = 1e-4;  ///< of a segment, to either side of a border
 
@@ -27,6 +27,8 @@ FleshAudit::FleshAudit(const LogContents& log) : log_(log) {
   if (!log.resolved.scene.flesh.present()) return;
   contacts_ = logged_contacts(log);
   energy_ = log.h5.doubles("/flesh/energy");
+  overlap_ = log.h5.doubles("/flesh/overlap");
+  pressure_ = log.h5.doubles("/flesh/pressure");
 }
 
 /// Length that the point of a logged contact stands for, cm.
@@ -57,18 +59,37 @@ void FleshAudit::see(const AuditedFrame& frame) {
     const double force = -scene.flesh.stiffness * weight_of(frame, one) * (now.gap + lag * speed);
     rebuilt_.compare("/contacts/force", one.force, force, force_tolerance * std::abs(force));
   }
-  const double energy =
-      stored_between_strands(frame.observation.segments) + stored_in_planes(frame.observation.kin);
-  rebuilt_.compare("/flesh/energy", energy_[static_cast<std::size_t>(frame.index)], energy,
-                   energy_tolerance * energy);
+  Pressed pressed;
+  press_strands(frame.observation.segments, pressed);
+  press_planes(frame.observation.kin, pressed);
+  const auto compare = [&](const char* path, double logged, double wanted) {
+    rebuilt_.compare(path, logged, wanted, search_tolerance * wanted);
+  };
+  const int bodies = log_.model.body_count();
+  const auto most = [&](const std::vector<double>& values) {
+    return *std::max_element(values.begin() + frame.index * bodies,
+                             values.begin() + (frame.index + 1) * bodies);
+  };
+  compare("/flesh/energy", energy_[static_cast<std::size_t>(frame.index)], pressed.energy);
+  compare("/flesh/overlap", most(overlap_), pressed.overlap);
+  compare("/flesh/pressure", most(pressure_), pressed.pressure);
+}
+
+// Two circles of radii r and R that overlap by d have a chord of 2 sqrt(2 d / (1/r + 1/R)).
+void FleshAudit::press(double gap, double weight, double curvature, Pressed& pressed) const {
+  if (gap >= 0) return;
+  const double stiffness = log_.resolved.scene.flesh.stiffness;
+  pressed.energy += 0.5 * stiffness * weight * gap * gap;
+  pressed.overlap = std::max(pressed.overlap, -gap);
+  pressed.pressure =
+      std::max(pressed.pressure, stiffness * -gap / (2 * std::sqrt(-2 * gap / curvature)));
 }
 
 /// Every point against every segment of other strands, by samples of the gap along each. A foot is
 /// where the gap falls into a segment and rises out of it, or at an end of a strand.
-double FleshAudit::stored_between_strands(const std::vector<SplineSegment>& segments) const {
+void FleshAudit::press_strands(const std::vector<SplineSegment>& segments, Pressed& pressed) const {
   const Scene& scene = log_.resolved.scene;
   const int count = static_cast<int>(segments.size());
-  double energy = 0;
   const auto is_ring = [&](const SplineSegment& s) {
     return s.obstacle >= 0 && log_.model.obstacles[s.obstacle].strand()->closed;
   };
@@ -106,8 +127,7 @@ double FleshAudit::stored_between_strands(const std::vector<SplineSegment>& segm
         }
         at = 0.5 * (from + to);
       }
-      const double least = gap(k, at);
-      if (least < 0) energy += 0.5 * scene.flesh.stiffness * weight * least * least;
+      press(gap(k, at), weight, 1 / r + 1 / s.radius(at), pressed);
     }
   };
   for (int own = 0; own < count; ++own) {
@@ -133,16 +153,13 @@ double FleshAudit::stored_between_strands(const std::vector<SplineSegment>& segm
       });
     }
   }
-  return energy;
 }
 
-double FleshAudit::stored_in_planes(const Kinematics& kin) const {
-  double energy = 0;
+void FleshAudit::press_planes(const Kinematics& kin, Pressed& pressed) const {
   visit_plane_gaps(log_.model, kin, [&](const PlaneGap& at) {
-    energy += 0.5 * log_.resolved.scene.flesh.stiffness * log_.model.bodies[at.body].length *
-              std::pow(std::min(at.gap, 0.0), 2);
+    const Body& body = log_.model.bodies[at.body];
+    press(at.gap, body.length, 1 / body.radius, pressed);
   });
-  return energy;
 }
 
 std::vector<Finding> FleshAudit::findings() const {

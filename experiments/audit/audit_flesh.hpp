@@ -1,5 +1,5 @@
 // The part of an audit that recomputes the forces of flesh from q and q̇ by their law, and the
-// energy that it stores by a search of its own.
+// energy that it stores, its deepest overlap and its largest pressure by a search of its own.
 #pragma once
 
 #include <vector>
@@ -20,14 +20,20 @@ class FleshAudit {
   std::vector<Finding> findings() const;
 
  private:
+  /// Of one frame: energy stored, erg; deepest overlap, cm; largest pressure, dyn/cm².
+  struct Pressed {
+    double energy = 0, overlap = 0, pressure = 0;
+  };
+  /// Adds a point of a length (cm) and its curvature, 1/r of both skins, 1/cm; none of a gap > 0.
+  void press(double gap, double weight, double curvature, Pressed& pressed) const;
+  void press_strands(const std::vector<SplineSegment>& segments, Pressed& pressed) const;
+  void press_planes(const Kinematics& kin, Pressed& pressed) const;
   double weight_of(const AuditedFrame& frame, const LoggedContact& contact) const;
-  double stored_between_strands(const std::vector<SplineSegment>& segments) const;
-  double stored_in_planes(const Kinematics& kin) const;
 
   const LogContents& log_;
   std::vector<LoggedContact> contacts_;
-  std::vector<double> energy_;
-  std::size_t next_contact_ = 0;  ///< first one of frames not seen yet
+  std::vector<double> energy_, overlap_, pressure_;  ///< of frames; the last two x bodies
+  std::size_t next_contact_ = 0;                     ///< first one of frames not seen yet
   Rebuilt rebuilt_;
 };
 

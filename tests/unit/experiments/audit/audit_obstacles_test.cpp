@@ -71,7 +71,8 @@ TEST(AuditOfFlesh, ForcesAndEnergyAreWatched) {
                                 "knot.votes=5", "expect.energy_loss=0.2",
                                 "expect.knot=", "expect.types=[]", "expect.slide_distance=0"}));
   EXPECT_EQ(audit_objections(file), "");
-  for (const std::string path : {"/contacts/force", "/flesh/energy"}) {
+  for (const std::string path :
+       {"/contacts/force", "/flesh/energy", "/flesh/overlap", "/flesh/pressure"}) {
     const auto before =
         rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, [](std::vector<double>& values) {
           for (double& value : values) value *= 1.05;
