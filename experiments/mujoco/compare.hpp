@@ -1,4 +1,4 @@
-// The core held against MuJoCo: random states, and runs by the same rule.
+// The core held against MuJoCo: random states, rollouts by the same rule, errors over the step.
 #pragma once
 
 #include "core/input/files/scene_reader.hpp"

@@ -25,7 +25,7 @@ struct StressMethod {
   int integrator;                      ///< MuJoCo's, or core_stepper
   const char* qp;                      ///< back end of the core
   std::array<const char*, 2> changes;  ///< KEY=VALUE of the scene; none where empty
-  bool hard = false;                   ///< MuJoCo's contacts and limits as stiff as it allows
+  bool hard = false;                   ///< MuJoCo's contacts and limits are stiff ones
 };
 constexpr const char* unwatched = "guard.energy_action=warn";
 constexpr std::array<StressMethod, 12> stress_rules{

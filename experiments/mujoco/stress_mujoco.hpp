@@ -16,7 +16,7 @@ std::string not_in_mujoco(const Scene& scene);
 double mechanical_energy(const Model& model, const State& state, const Kinematics& kin);
 
 /// Runs `scene` by MuJoCo's `integrator` (mjINT_...) from its start to its end: its own soft
-/// contacts and limits (margin 0, all else at its defaults; where `hard`, as stiff as it allows),
+/// contacts and limits (margin 0, all else at its defaults; where `hard`, stiff ones),
 /// the scene's drag and script as forces of the step's beginning. The core's guards hold here too.
 /// `judge` sees each step; a call of `out_of_time` ends the run where it says so. Returns whether
 /// it came to its end. Throws StepError where MuJoCo finds its state bad or a guard is passed.

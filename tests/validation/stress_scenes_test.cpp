@@ -87,6 +87,12 @@ TEST_P(StressScenes, MujocoSurvivesSmallStepsOfWhatItHas) {
   }
 }
 
+TEST(StressMethods, StiffContactsOfMujocoHoldLimitsThatItsOwnDoNot) {
+  const std::string scene = HAGFISH_STRESS_DIR "/tight_limits.toml";
+  EXPECT_EQ(run_cell(scene, "mujoco_euler", 0.001, {}).status.outcome, Outcome::limits);
+  EXPECT_EQ(run_cell(scene, "mujoco_hard", 0.001, {}).status.outcome, Outcome::ok);
+}
+
 /// A cell of the map that once failed by the default method, and what it failed of then.
 struct MendedCell {
   std::string name, scene;
