@@ -11,8 +11,6 @@
 #include "core/chain/start.hpp"
 #include "core/input/input_error.hpp"
 #include "core/run/drive.hpp"
-#include "core/scene/interpolation.hpp"
-#include "experiments/film/film_checks.hpp"
 #include "experiments/film/fit/film_curve.hpp"
 #include "experiments/film/fit/film_shape.hpp"
 
@@ -23,14 +21,15 @@ constexpr double prior = std::numbers::ln10;  // standard deviation of a factor'
 constexpr double ninety = 1.6449;             // standard deviations to each side of 90 %
 // What shapes of so many bodies and stations leave wrong of the logarithms, standard deviations:
 // measured where films were made with 150 bodies and fitted with 50, noise aside.
-constexpr std::array<double, animal_traits> model_error = {0.01, 0.06, 0.01};
-constexpr int most_stations = 12;       // of the start
-constexpr double longest_step = 0.002;  // s: a body's third bending mode has a period of 0.1
+constexpr std::array<double, AnimalFit::traits> model_error = {0.01, 0.06, 0.01};
+constexpr int stations = 12;            // of the start
+constexpr int most_times = 200;         // of the program by which the film's noise is told
+constexpr double longest_step = 0.002;  // s: the third bending mode of the paper's animal takes 0.1
 constexpr int trial_changes = 3, most_changes = 30, most_trials = 8;
 constexpr double first_damping = 1e-3, easing = 0.2;  // of Levenberg and Marquardt
 // Factors to begin with, of stiffness, damping and drag. Where drag and stiffness alone count, what
 // they have in common is told by little, and steps from one start stop in a valley.
-constexpr std::array<std::array<double, animal_traits>, 4> first_factors{
+constexpr std::array<std::array<double, AnimalFit::traits>, 4> first_factors{
     {{1, 1, 1}, {0.2, 0.2, 0.3}, {5, 5, 3}, {0.2, 0.2, 2}}};
 constexpr double settled_at = 1e-4;  // relative change of the cost
 // Steps of differences: of a factor's logarithm, of a bend (rad per body length), and of rates
@@ -91,33 +90,30 @@ ResolvedScene passive(ResolvedScene resolved, FilmHead head, double duration) {
 /// factors; bends at the stations, about each axis; their rates; of a free head its twist.
 class Runs {
  public:
-  Runs(const ResolvedScene& resolved, const Film& film, FilmHead head, int stations,
-       const Points& points)
+  Runs(const ResolvedScene& resolved, const Film& film, FilmHead head, const Points& points)
       : scene_(resolved.scene),
         model_(make_hagfish(resolved.specimen, resolved.scene)),
         points_(points),
-        stations_(stations),
         axes_(film.planar ? 1 : 2),
         free_(head == FilmHead::free ? 3 * axes_ : 0) {}
 
-  Eigen::Index size() const { return animal_traits + 2 * axes_ * stations_ + free_; }
+  Eigen::Index size() const { return first_rate() + axes_ * stations + free_; }
+  Eigen::Index first_rate() const { return AnimalFit::traits + axes_ * stations; }
   const Model& model() const { return model_; }
-  Eigen::Index first_rate() const { return animal_traits + axes_ * stations_; }
 
   /// Where the film's points are in a run, 3 x points, cm; nothing where it does not last.
   std::optional<Eigen::Matrix3Xd> operator()(const Eigen::VectorXd& x) const {
     Model model = model_;
     for (Hinge& hinge : model.hinges) {
-      hinge.stiffness *= std::exp(x[0]);
-      hinge.damping *= std::exp(x[1]);
+      hinge.stiffness *= std::exp(x[AnimalFit::stiffness]);
+      hinge.damping *= std::exp(x[AnimalFit::damping]);
     }
-    model.drag.normal *= std::exp(x[2]);
-    model.drag.tangential *= std::exp(x[2]);
-    Scene scene = scene_;
-    scene.start = {};
-    scene.start.bend = rows(x, animal_traits);
-    scene.start.bend_rate = rows(x, first_rate());
-    State state = start_state(model, scene.start);
+    model.drag.normal *= std::exp(x[AnimalFit::drag]);
+    model.drag.tangential *= std::exp(x[AnimalFit::drag]);
+    StartSettings start;
+    start.bend = rows(x, AnimalFit::traits);
+    start.bend_rate = rows(x, first_rate());
+    State state = start_state(model, start);
     if (free_ > 0) {
       const Eigen::VectorXd twist = x.tail(free_);
       if (axes_ == 1) {  // turn about Z, velocity in the plane
@@ -146,12 +142,12 @@ class Runs {
     place(state, 0, after);
     keep(after);
     try {
-      Simulation sim = start_from(model, scene, "active-set", state, {}, 0);
+      Simulation sim = start_from(model, scene_, "active-set", state, {}, 0);
       StepRecord record;
       State last = state;
-      const double h = scene.time.step;
+      const double h = scene_.time.step;
       const auto look = [&](const StepRecord&, const Simulation& at) {
-        const double time = time_of(at, scene);
+        const double time = time_of(at, scene_);
         for (; frame < points_.time.size() && points_.time[frame] <= time + 1e-9 * h;) {
           place(last, frame, before);
           place(at.now.state, frame, after);
@@ -161,7 +157,7 @@ class Runs {
         last = at.now.state;
       };
       const auto done = [&] { return frame == points_.time.size(); };
-      const Status end = drive(model, scene, sim, record, {look}, done);
+      const Status end = drive(model, scene_, sim, record, {look}, done);
       if (!end.ok() && end.outcome != Outcome::stopped) return std::nullopt;
     } catch (const StepError&) {
       return std::nullopt;
@@ -174,9 +170,9 @@ class Runs {
   /// Values from `first` on as StartSettings has them.
   std::vector<Eigen::Vector4d> rows(const Eigen::VectorXd& x, Eigen::Index first) const {
     std::vector<Eigen::Vector4d> rows;
-    for (Eigen::Index j = 0; j < stations_; ++j) {
-      const double station = static_cast<double>(j) / static_cast<double>(stations_ - 1);
-      const double z = x[first + (axes_ - 1) * stations_ + j] / model_.length();
+    for (int j = 0; j < stations; ++j) {
+      const double station = static_cast<double>(j) / (stations - 1);
+      const double z = x[first + (axes_ - 1) * stations + j] / model_.length();
       const double y = axes_ == 2 ? x[first + j] / model_.length() : 0;
       rows.emplace_back(station, 0, y, z);
     }
@@ -186,27 +182,8 @@ class Runs {
   Scene scene_;
   Model model_;
   const Points& points_;
-  Eigen::Index stations_, axes_, free_;
+  Eigen::Index axes_, free_;
 };
-
-/// Bends of the program at a time, at even stations, about each axis of the film.
-Eigen::VectorXd bends_at(const CurvatureProgram& program, double time, Eigen::Index stations,
-                         Eigen::Index axes) {
-  const TablePlace in_time = place_among(program.time, time);
-  Eigen::VectorXd bends(axes * stations);
-  for (Eigen::Index j = 0; j < stations; ++j) {
-    const double station = static_cast<double>(j) / static_cast<double>(stations - 1);
-    const TablePlace along = place_among(program.station, station);
-    for (Eigen::Index a = 0; a < axes; ++a) {
-      bends[a * stations + j] = value_at(in_time, [&](std::size_t t) {
-        return value_at(along, [&](std::size_t k) {
-          return program.value[t](a + (axes == 1 ? 1 : 0), static_cast<Eigen::Index>(k));
-        });
-      });
-    }
-  }
-  return bends;
-}
 
 /// Unknowns from which no small change leads nearer, and what they leave.
 struct Nearest {
@@ -250,14 +227,79 @@ double likeness(const Eigen::VectorXd& residual, const Points& points) {
   return (1 + r) / (1 - r);
 }
 
+/// The least squares: residuals of runs from the film's points, and the prior of the factors.
+struct Problem {
+  const Runs& run;
+  const Points& points;
+  double freedom = 0;    ///< numbers that are compared, less those that are fitted
+  Eigen::VectorXd step;  ///< of differences, by unknown
+
+  /// Nothing where the run does not last.
+  std::optional<Eigen::VectorXd> residual(const Eigen::VectorXd& x) const {
+    const auto seen = run(x);
+    return seen ? std::optional(off(*seen, points)) : std::nullopt;
+  }
+  double cost(const Eigen::VectorXd& x, const Eigen::VectorXd& residual, double variance) const {
+    return residual.squaredNorm() / variance +
+           x.head(AnimalFit::traits).squaredNorm() / (prior * prior);
+  }
+  /// Rates of the residual by each unknown; 0 where the run beside does not last.
+  Eigen::MatrixXd rates(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) const {
+    Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(residual.size(), x.size());
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      Eigen::VectorXd near = x;
+      near[k] += step[k];
+      if (const auto there = this->residual(near)) rate.col(k) = (*there - residual) / step[k];
+    }
+    return rate;
+  }
+};
+
+/// From `x` on, by at most so many changes; nothing where no run begins there.
+std::optional<Nearest> nearest_from(const Problem& problem, const Eigen::VectorXd& x, int most,
+                                    const std::function<void()>& watch) {
+  const auto begin = problem.residual(x);
+  if (!begin) return std::nullopt;
+  Nearest at{x, *begin, {}, false};
+  double damping = first_damping;
+  for (int change = 0; change < most && !at.settled; ++change) {
+    watch();
+    const Eigen::MatrixXd rate = problem.rates(at.x, at.residual);
+    const double variance = at.residual.squaredNorm() / problem.freedom;
+    at.normal = rate.transpose() * rate / variance;
+    Eigen::VectorXd gradient = rate.transpose() * at.residual / variance;
+    at.normal.diagonal().head<AnimalFit::traits>().array() += 1 / (prior * prior);
+    gradient.head<AnimalFit::traits>() += at.x.head<AnimalFit::traits>() / (prior * prior);
+    const double before = problem.cost(at.x, at.residual, variance);
+    at.settled = true;
+    for (int trial = 0; trial < most_trials; ++trial) {
+      Eigen::MatrixXd damped = at.normal;
+      damped.diagonal() *= 1 + damping;
+      const Eigen::VectorXd next = at.x - Eigen::VectorXd(damped.ldlt().solve(gradient));
+      const auto there = next.allFinite() ? problem.residual(next) : std::nullopt;
+      const double after = there ? problem.cost(next, *there, variance) : before;
+      damping *= after < before ? easing : 1 / easing;
+      if (!(after < before)) continue;
+      at.settled = before - after < settled_at * before;
+      at.x = next;
+      at.residual = *there;
+      break;
+    }
+  }
+  return at;
+}
+
 }  // namespace
 
-AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, const FilmFit& fit,
-                     FilmHead head, const std::function<void(int)>& watch) {
+AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, FilmHead head,
+                     const std::function<void(int)>& watch) {
+  const double lasts = film.frames.back().time - film.frames.front().time;
+  const ResolvedScene scene = passive(resolved, head, lasts + longest_step);
+  const int times = std::min(static_cast<int>(film.frames.size()), most_times);
+  const FilmFit fit =
+      fit_film(make_hagfish(scene.specimen, scene.scene), film, head, times, stations);
   const Points points = points_used(film, fit);
-  const double lasts = points.time.back();
-  const int stations = std::clamp(static_cast<int>(fit.program.station.size()), 2, most_stations);
-  const Runs run(passive(resolved, head, lasts + longest_step), film, head, stations, points);
+  const Runs run(scene, film, head, points);
   const Model& model = run.model();
   const auto none = [&](double Hinge::*of) {
     return std::ranges::all_of(model.hinges, [&](const Hinge& h) { return h.*of == 0; });
@@ -265,89 +307,49 @@ AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, const Film
   if (none(&Hinge::stiffness) || none(&Hinge::damping) || model.drag.normal == 0) {
     throw InputError("the scene has no stiffness, damping or drag to scale");
   }
-  const Eigen::Index axes = film.planar ? 1 : 2, n = run.size();
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(n), step(n);
-  start.segment(animal_traits, axes * stations) = bends_at(fit.program, 0, stations, axes);
-  step.setConstant(rate_step);
-  step.head(animal_traits).setConstant(factor_step);
-  step.segment(animal_traits, axes * stations).setConstant(bend_step);
-  const double flat = film.planar ? 2.0 : 3.0;
-  const auto motion = film.planar ? 3.0 : 6.0;
-  const auto numbers = flat * static_cast<double>(points.at.cols());
-  const double own = static_cast<double>(n) + motion;
-  if (numbers < 2 * own) throw InputError("has too few points to find an animal's traits");
-
-  const auto residual_at = [&](const Eigen::VectorXd& at) -> std::optional<Eigen::VectorXd> {
-    const auto seen = run(at);
-    if (!seen) return std::nullopt;
-    return off(*seen, points);
-  };
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(run.size());
+  Eigen::VectorXd step = Eigen::VectorXd::Constant(run.size(), rate_step);
+  step.head<AnimalFit::traits>().setConstant(factor_step);
+  step.segment(AnimalFit::traits, run.first_rate() - AnimalFit::traits).setConstant(bend_step);
+  // About Y, unless the film is flat, and about Z, at the program's stations.
+  const int first_axis = film.planar ? 1 : 0;
+  for (int axis = first_axis; axis < 2; ++axis) {
+    start.segment<stations>(AnimalFit::traits + (axis - first_axis) * stations) =
+        fit.program.value.front().row(axis).transpose();
+  }
+  const double dimensions = film.planar ? 2 : 3, motion = film.planar ? 3 : 6;
+  const double compared = dimensions * static_cast<double>(points.at.cols());
+  const double fitted = static_cast<double>(run.size()) + motion;
+  if (compared < 2 * fitted) throw InputError("has too few points to find an animal's traits");
+  const Problem problem{run, points, compared - fitted, step};
   int changes = 0;
-  const auto nearest_from = [&](Eigen::VectorXd x, int most) -> std::optional<Nearest> {
-    std::optional<Eigen::VectorXd> residual = residual_at(x);
-    if (!residual) return std::nullopt;
-    const auto own_cost = [&](const Eigen::VectorXd& at, const Eigen::VectorXd& r,
-                              double variance) {
-      return r.squaredNorm() / variance + at.head(animal_traits).squaredNorm() / (prior * prior);
-    };
-    Nearest found;
-    Eigen::MatrixXd rate(residual->size(), n);
-    double damping = first_damping;
-    for (int change = 0; change < most && !found.settled; ++change) {
-      if (watch) watch(++changes);
-      for (Eigen::Index k = 0; k < n; ++k) {
-        Eigen::VectorXd near = x;
-        near[k] += step[k];
-        const auto there = residual_at(near);
-        rate.col(k) = there ? Eigen::VectorXd((*there - *residual) / step[k])
-                            : Eigen::VectorXd::Zero(residual->size());
-      }
-      const double variance = residual->squaredNorm() / (numbers - own);
-      found.normal = rate.transpose() * rate / variance;
-      Eigen::VectorXd gradient = rate.transpose() * *residual / variance;
-      found.normal.diagonal().head(animal_traits).array() += 1 / (prior * prior);
-      gradient.head(animal_traits) += x.head(animal_traits) / (prior * prior);
-      const double before = own_cost(x, *residual, variance);
-      found.settled = true;
-      for (int trial = 0; trial < most_trials; ++trial) {
-        Eigen::MatrixXd damped = found.normal;
-        damped.diagonal() *= 1 + damping;
-        const Eigen::VectorXd next = x - Eigen::VectorXd(damped.ldlt().solve(gradient));
-        const auto there = next.allFinite() ? residual_at(next) : std::nullopt;
-        const double after = there ? own_cost(next, *there, variance) : before;
-        damping *= after < before ? easing : 1 / easing;
-        if (!(after < before)) continue;
-        found.settled = before - after < settled_at * before;
-        x = next;
-        residual = there;
-        break;
-      }
-    }
-    found.x = x;
-    found.residual = *residual;
-    return found;
+  const auto count = [&] {
+    if (watch) watch(++changes);
   };
   std::optional<Nearest> best;
-  for (const std::array<double, animal_traits>& first : first_factors) {
-    for (int k = 0; k < animal_traits; ++k) start[k] = std::log(first[k]);
-    const auto found = nearest_from(start, trial_changes);
-    if (found && (!best || found->residual.squaredNorm() < best->residual.squaredNorm()))
+  for (const auto& first : first_factors) {
+    for (int k = 0; k < AnimalFit::traits; ++k) start[k] = std::log(first[k]);
+    const auto found = nearest_from(problem, start, trial_changes, count);
+    if (found && (!best || found->residual.squaredNorm() < best->residual.squaredNorm())) {
       best = found;
+    }
   }
   if (!best) throw InputError("no run begins as the film does: check units and scale");
-  best = nearest_from(best->x, most_changes);
-  const Eigen::MatrixXd spread = best->normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  best = nearest_from(problem, best->x, most_changes, count);
   AnimalFit found;
+  found.scale = fit.scale;
   found.settled = best->settled;
   found.rms = std::sqrt(best->residual.squaredNorm() / static_cast<double>(points.at.cols()));
   if (const auto seen = run(best->x)) found.moved = moved_by(*seen, points);
+  const Eigen::Index n = run.size();
+  const Eigen::MatrixXd spread = best->normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   const double wider = std::sqrt(likeness(best->residual, points));
-  for (int k = 0; k < animal_traits; ++k) {
-    TraitEstimate& trait = found.trait[k];
+  for (int k = 0; k < AnimalFit::traits; ++k) {
+    const double x = best->x[k];
     const double half =
         ninety * std::hypot(wider * std::sqrt(std::max(spread(k, k), 0.0)), model_error[k]);
-    trait = {std::exp(best->x[k]), std::exp(best->x[k] - half), std::exp(best->x[k] + half),
-             found.moved > found.rms && 2 * half < std::log(trait_told)};
+    found.trait[k] = {std::exp(x), std::exp(x - half), std::exp(x + half),
+                      found.moved > found.rms && 2 * half < std::log(trait_told)};
   }
   return found;
 }

@@ -11,22 +11,21 @@
 
 namespace hagfish {
 
-/// What is found, each as a factor of what the scene has: stiffness of bending and twist, their
-/// damping, and the water's drag, normal and tangential.
-enum class AnimalTrait { stiffness, damping, drag };
-inline constexpr int animal_traits = 3;
-
-/// A factor and its interval of 90 %.
+/// A factor of what the scene has, and its interval of 90 %.
 struct TraitEstimate {
   double factor = 1, low = 1, high = 1;
   bool told = false;  ///< whether the film says it: the interval spans less than trait_told
 };
 
 struct AnimalFit {
-  std::array<TraitEstimate, animal_traits> trait;
-  double rms = 0;        ///< distance of the film's points from the run, cm of the model
-  double moved = 0;      ///< rms distance of the run's points from where they begin, cm
-  bool settled = false;  ///< whether the last change made less than a thousandth of a difference
+  /// Of bending and twist, and of the water across and along the body.
+  enum Trait { stiffness, damping, drag, traits };
+  std::array<TraitEstimate, traits> trait;
+  double scale = 1;  ///< cm of the model in one of the film's lengths
+  double rms = 0;    ///< distance of the film's points from the run, cm of the model
+  double moved = 0;  ///< rms distance of the run's points from where they begin, cm
+  /// Whether the last change made less than a ten-thousandth of a difference, or none led nearer.
+  bool settled = false;
 };
 
 /// Highest over lowest value of an interval of 90 % within which a film is said to tell a trait. A
@@ -39,10 +38,11 @@ inline constexpr double trait_told = 4;
 /// rates by differences of runs). The film's axes are those of the nearest rigid motion. Intervals
 /// are those of the linear model, with the variance of the residuals. It grows with what neighbours
 /// in time have in common. Factors have a prior: a factor of ten is one standard deviation.
-/// `fit` is of `film`: it gives the start, the scale, and which points are used. The scene has no
-/// gravity and no obstacles but the head plate, which is left out. Throws InputError, without the
-/// film's name, where it has either, or has no stiffness, damping or drag to scale.
-AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, const FilmFit& fit,
-                     FilmHead head, const std::function<void(int)>& watch = {});
+/// fit_film() gives the start, the scale, and which points are used. The scene has no gravity and
+/// no obstacles but the head plate, which is left out. Throws InputError, without the film's name,
+/// where it has either, or has no stiffness, damping or drag to scale; and as fit_film(). Calls
+/// `watch`, where there is one, at each change with their number so far.
+AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, FilmHead head,
+                     const std::function<void(int)>& watch = {});
 
 }  // namespace hagfish

@@ -331,6 +331,13 @@ void tell_crossings(const Film& film, FilmRemarks& remarks) {
 
 }  // namespace
 
+void end_at(Film& film, double until) {
+  if (until == 0) return;
+  const std::size_t all = std::max<std::size_t>(film.frames.size(), 1);
+  std::erase_if(film.frames, [&](const FilmFrame& f) { return f.time > until; });
+  film.expected = film.expected * film.frames.size() / all;
+}
+
 double quantile_of(std::vector<double> values, double share) {
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

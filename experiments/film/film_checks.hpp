@@ -21,6 +21,9 @@ struct FilmRemarks {
 /// that cross themselves.
 FilmRemarks tidy(Film& film);
 
+/// Takes out of `film` what comes after `until` (s); 0: nothing.
+void end_at(Film& film, double until);
+
 /// The value at the place `share` (0 to 1) of `values`, sorted; there must be one.
 double quantile_of(std::vector<double> values, double share);
 

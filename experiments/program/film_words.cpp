@@ -7,6 +7,7 @@
 
 #include "core/input/input_text.hpp"
 #include "experiments/film/film_table.hpp"
+#include "experiments/film/film_verdict.hpp"
 #include "experiments/program/program.hpp"
 #include "experiments/program/shell_word.hpp"
 
@@ -82,6 +83,18 @@ std::string ends_note(const Film& film, const FilmReading& reading, const std::s
       "{}--animal-length\n",
       head ? "the first point is taken as the tip of the head, and " : "",
       head ? "them" : "the tip", head ? "--first-point and " : "");
+}
+
+std::string another_animal_note(const Film& film, const FilmReading& reading,
+                                const std::string& scene, const Model& model, const char* figures) {
+  // Of the length: torques of one that differs by more differ by a fifth and more.
+  constexpr double same_animal = 0.05;
+  const double animal = animal_length(film, reading);
+  if (animal == 0 || std::abs(animal / model.length() - 1) <= same_animal) return "";
+  return fmt::format(
+      "its animal has {:.3g} cm, that of {} {:g} cm: {} will be of the latter; describe yours by "
+      "`hagfish specimen` and name the scene that it writes by --scene\n",
+      animal, printable(scene), model.length(), figures);
 }
 
 std::string flat_note(const std::string& film) {

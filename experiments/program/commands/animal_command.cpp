@@ -14,7 +14,6 @@ namespace {
 
 /// A model of this many bodies bends as one of a hundred does, to less than films tell.
 constexpr const char* bodies = "model.bodies=50";
-constexpr int most_film_stations = 12;
 
 struct AnimalOptions {
   std::string film, scene = "living_overhand";
@@ -41,26 +40,21 @@ int animal(const AnimalOptions& options) {
   const Scene& scene = resolved.scene;
   const Model model = make_hagfish(resolved.specimen, scene);
   Film film = read_film(options.film, options.reading);
-  if (options.until > 0) {
-    std::erase_if(film.frames, [&](const FilmFrame& f) { return f.time > options.until; });
-  }
+  end_at(film, options.until);
   const FilmRemarks remarks = tidy(film);
   const FilmHead head = options.free_head ? FilmHead::free : FilmHead::still;
   AnimalFit found;
-  double scale = 1;
   try {
     if (film.frames.size() < 3) throw InputError("has fewer than three usable midlines");
     refuse_jumps(film);
-    const int times = std::min<int>(static_cast<int>(film.frames.size()), 200);
-    const FilmFit fit = fit_film(model, film, head, times, most_film_stations);
-    scale = fit.scale;
-    found = fit_animal(resolved, film, fit, head, [](int change) { say("change {}\n", change); });
+    found = fit_animal(resolved, film, head, [](int change) { say("change {}\n", change); });
   } catch (const InputError& error) {
     throw InputError(options.film + ": " + error.what());
   }
-  const std::string size = scaled(film, scale);
-  fmt::print("{}: read as {}, {} midlines{}\n{}", printable(options.film), film.format,
-             film.frames.size(), size, ends_note(film, options.reading, size));
+  const std::string size = scaled(film, found.scale);
+  fmt::print("{}: read as {}, {} midlines{}\n{}{}", printable(options.film), film.format,
+             film.frames.size(), size, ends_note(film, options.reading, size),
+             another_animal_note(film, options.reading, options.scene, model, "figures"));
   for (const std::string& told : remarks.told) fmt::print("{}\n", told);
   for (const std::string& doubt : remarks.doubts) fmt::print("look at: {}\n", doubt);
   if (found.moved <= found.rms) {
@@ -72,17 +66,17 @@ int animal(const AnimalOptions& options) {
   const auto first = [&](const std::vector<double>& of_animal, double of_scene) {
     return of_specimen && !of_animal.empty() ? of_animal.front() : of_scene;
   };
-  tell("stiffness EI", found.trait[0],
+  tell("stiffness EI", found.trait[AnimalFit::stiffness],
        first(resolved.specimen.bending_stiffness, scene.model.bending_stiffness), "dyn cm^2");
-  tell("damping", found.trait[1],
+  tell("damping", found.trait[AnimalFit::damping],
        first(resolved.specimen.bending_damping, scene.model.bending_damping), "dyn cm^2 s");
-  tell("drag", found.trait[2], scene.drag.normal, "g/(s cm) across the body");
+  tell("drag", found.trait[AnimalFit::drag], scene.drag.normal, "g/(s cm) across the body");
   fmt::print("the run is {:.2g} cm from the film (rms){}\n", found.rms,
              found.settled ? "" : ", and not yet as near as can be: do not use it");
   fmt::print(
       "true where nothing but the body, its mass and the water moves it: an animal that is dead, "
       "asleep or let go\n");
-  return found.settled ? exit_code::done : exit_code::wrong_knot;
+  return found.settled ? exit_code::done : not_fitted;
 }
 
 }  // namespace

@@ -30,15 +30,11 @@ constexpr double program_interval = 0.05, frames_a_time = 1;
 constexpr int most_times = 1000;
 /// Longer programs are not run to find muscles that follow them, s.
 constexpr double longest_trial = 60;
-/// Of an animal's length: torques of one that differs by more differ by a fifth and more.
-constexpr double same_animal = 0.05;
 /// Rigidities that are known of hagfish, over the middle of them, which scenes have; the sources
 /// are in data/specimens/pacific_hagfish.toml.
 constexpr double least_rigidity = 0.15, most_rigidity = 6;
 /// Between lines that tell of long work.
 constexpr std::chrono::seconds told_each{5};
-/// Exit code: no program has the film's shapes.
-constexpr int not_fitted = exit_code::wrong_knot;
 
 struct MidlinesOptions {
   std::string film, out, png;
@@ -186,11 +182,7 @@ int midlines(const MidlinesOptions& options) {
                                  options.stations, model.body_count(), most));
   }
   Film film = read_film(options.film, options.reading);
-  if (options.until > 0) {
-    const std::size_t all = std::max<std::size_t>(film.frames.size(), 1);
-    std::erase_if(film.frames, [&](const FilmFrame& f) { return f.time > options.until; });
-    film.expected = film.expected * film.frames.size() / all;
-  }
+  end_at(film, options.until);
   const FilmRemarks remarks = tidy(film);
   if (film.frames.size() < 2) {
     throw InputError(fmt::format(
@@ -217,13 +209,7 @@ int midlines(const MidlinesOptions& options) {
              film.frames.size(), film.planar ? "two dimensions" : "three dimensions",
              film.turned.empty() ? "" : ", " + film.turned, scale,
              ends_note(film, options.reading, scale));
-  const double animal = animal_length(film, options.reading);
-  if (animal > 0 && std::abs(animal / model.length() - 1) > same_animal) {
-    fmt::print(
-        "its animal has {:.3g} cm, that of {} {:g} cm: torques will be of the latter; describe "
-        "yours by `hagfish specimen` and name the scene that it writes by --scene\n",
-        animal, printable(options.scene), model.length());
-  }
+  fmt::print("{}", another_animal_note(film, options.reading, options.scene, model, "torques"));
   for (const std::string& told : remarks.told) fmt::print("{}\n", told);
   for (const auto& [from, to] : gaps(film)) {
     fmt::print("no midlines from {:.4g} to {:.4g} s: filled in between\n", from, to);
