@@ -80,9 +80,7 @@ std::vector<const Row*> opponents(const Model& model, const Kinematics& kin,
   const Eigen::MatrixXd A = whole_dual(model, kin, step.system, step.rows).A;
   std::vector<std::pair<double, Eigen::Index>> effect;  // on the row's velocity
   for (Eigen::Index j = 0; j < A.rows(); ++j) {
-    if (j != i && A(i, j) * step.lambda[j] < 0) {
-      effect.emplace_back(A(i, j) * step.lambda[j], j);
-    }
+    if (j != i && A(i, j) * step.lambda[j] < 0) effect.emplace_back(A(i, j) * step.lambda[j], j);
   }
   std::sort(effect.begin(), effect.end());
   std::vector<const Row*> rows;
@@ -116,9 +114,7 @@ std::string cure_of_cap(const Row& row, const std::vector<const Row*>& against) 
 
 Status report(Outcome outcome, const std::string& message, GuardAction action, Watch& watch,
               std::vector<std::string>& warnings) {
-  if (action == GuardAction::stop) {
-    return {outcome, message};
-  }
+  if (action == GuardAction::stop) return {outcome, message};
   if (!watch.has_warned(outcome)) {
     watch.warned.set(static_cast<std::size_t>(outcome));
     warnings.push_back(message);
@@ -274,9 +270,7 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
     return row == step.rows.end() || !at_cap(*row);
   });
   for (const Row& row : step.rows) {
-    if (!at_cap(row)) {
-      continue;
-    }
+    if (!at_cap(row)) continue;
     const auto one = std::ranges::find(capped, row.id, &CapWatch::id);
     if (one == capped.end()) {
       capped.push_back({row.id, time});
