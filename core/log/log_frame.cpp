@@ -5,7 +5,7 @@
 
 #include "core/control/laws.hpp"
 #include "core/log/ledger_columns.hpp"
-#include "core/log/means/pull_figures.hpp"
+#include "core/log/means/log_means.hpp"
 
 namespace hagfish {
 namespace {
@@ -47,9 +47,7 @@ std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double
   const TouchingEnds& ends = frame.record.controller.ends;
   for (std::size_t k = 0; k < 2; ++k) {
     const std::optional<Contact>& contact = k == 0 ? ends.first : ends.last;
-    if (contact) {
-      pair[k] = *contact.*segment + *contact.*t;
-    }
+    if (contact) pair[k] = *contact.*segment + *contact.*t;
   }
   return pair;
 }

@@ -82,9 +82,7 @@ void AnySeries::cut(hsize_t rows) {
 
 template <class T>
 void Series<T>::append(const T* row, std::size_t count) {
-  if (count != row_size()) {
-    throw std::logic_error("log row has the wrong size");
-  }
+  if (count != row_size()) throw std::logic_error("log row has the wrong size");
   if (waiting_.empty()) waiting_.reserve(first_rows * row_size());
   waiting_.insert(waiting_.end(), row, row + count);
   if constexpr (std::is_same_v<T, double>) {
