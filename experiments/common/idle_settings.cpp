@@ -98,23 +98,25 @@ std::string why_idle(std::span<const Scene> scenes, const std::string& key) {
   return "";
 }
 
-}  // namespace
-
-void require_settings_act(const Scene& scene, const std::vector<std::string>& set) {
+/// Refuses the first of `set` that is idle in all of `scenes`.
+void refuse_idle(std::span<const Scene> scenes, const std::vector<std::string>& set,
+                 const char* option, const char* where) {
   for (const std::string& key : keys_of(set)) {
-    if (const std::string why = why_idle({&scene, 1}, key); !why.empty()) {
-      throw InputError(fmt::format("--set {}: has no effect here: {}", key, why));
+    if (const std::string why = why_idle(scenes, key); !why.empty()) {
+      throw InputError(fmt::format("{}{}: has no effect {}: {}", option, key, where, why));
     }
   }
 }
 
+}  // namespace
+
+void require_settings_act(const Scene& scene, const std::vector<std::string>& set) {
+  refuse_idle({&scene, 1}, set, "--set ", "here");
+}
+
 void require_settings_act_somewhere(const std::vector<Scene>& scenes,
                                     const std::vector<std::string>& set) {
-  for (const std::string& key : keys_of(set)) {
-    if (const std::string why = why_idle(scenes, key); !why.empty()) {
-      throw InputError(fmt::format("{}: has no effect in any cell: {}", key, why));
-    }
-  }
+  refuse_idle(scenes, set, "", "in any cell");
 }
 
 void require_settings_act_from(const Simulation& sim, const Scene& scene,
