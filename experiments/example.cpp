@@ -10,7 +10,7 @@ int main() {
   const std::string text(builtin_file("table1.toml").value());
   const ResolvedScene resolved = read_scene_text(text, "table1", {"time.step=0.005"});
   const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
+  const Model& model = resolved.model;
   Simulation sim = start(model, scene, "active-set");
   StepRecord record;
   while (record.controller.phase == Phase::form && !finished(sim, scene)) {

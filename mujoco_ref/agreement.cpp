@@ -46,9 +46,7 @@ Dynamics core_dynamics(const Model& model, const State& state, const Kinematics&
   const Matrix6Xd wrench = gravity_wrench(model, kin) - bias_wrench(model, kin, motion_of(kin));
   Dynamics dynamics{dense(model, kin, op), -(generalised_force(model, kin, wrench) + joint), {}};
   std::vector<PrescribedVelocity> prescribed;  // Eq. 3 for accelerations: the clamped head has none
-  for (int k = 0; head == Head::clamped && k < root_dofs; ++k) {
-    prescribed.push_back({k, 0});
-  }
+  for (int k = 0; head == Head::clamped && k < root_dofs; ++k) prescribed.push_back({k, 0});
   ArticulatedFactor factor;
   factor.factorise(model, kin, op, prescribed);
   dynamics.acceleration = factor.solve(model, kin, wrench, joint);

@@ -113,24 +113,16 @@ std::string bodies_file(const Model& model, const std::vector<JointName>& names,
   std::ostringstream out = number_stream();
   const int end = std::min(first + bodies_per_file, model.body_count());
   out << "<mujocoinclude>\n";
-  for (int b = first; b < end; ++b) {
-    open_body(out, model, b, names[b], head);
-  }
-  if (end < model.body_count()) {
-    out << "<include file=\"" << bodies_file_name(end) << "\"/>\n";
-  }
-  for (int b = first; b < end; ++b) {
-    out << "</body>\n";
-  }
+  for (int b = first; b < end; ++b) open_body(out, model, b, names[b], head);
+  if (end < model.body_count()) out << "<include file=\"" << bodies_file_name(end) << "\"/>\n";
+  for (int b = first; b < end; ++b) out << "</body>\n";
   out << "</mujocoinclude>\n";
   return out.str();
 }
 
 void write_excludes(std::ostream& out, const Model& model, double least_arc) {
   std::vector<double> arc{0};  // of the bodies' front ends and the tail, cm
-  for (const Body& body : model.bodies) {
-    arc.push_back(arc.back() + body.length);
-  }
+  for (const Body& body : model.bodies) arc.push_back(arc.back() + body.length);
   for (int a = 0; a < model.body_count(); ++a) {
     // The hair of slack is that of core/contact/contact.cpp: equal arcs fall on the same side in
     // both.

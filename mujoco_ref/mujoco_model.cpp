@@ -16,9 +16,7 @@ using Files = std::map<std::string, std::string>;
 std::string one_line(const std::string& message) {
   std::istringstream words(message);
   std::string line;
-  for (std::string word; words >> word;) {
-    line += line.empty() ? word : ' ' + word;
-  }
+  for (std::string word; words >> word;) line += line.empty() ? word : ' ' + word;
   return line;
 }
 

@@ -172,9 +172,7 @@ Vector3d middle_of(const std::vector<mjvGeom>& geoms, const View& view, const Sk
     low = std::min(low, depth);
     high = std::max(high, depth);
   };
-  for (const mjvGeom& geom : geoms) {
-    see(Eigen::Map<const Eigen::Vector3f>(geom.pos).cast<double>());
-  }
+  for (const mjvGeom& geom : geoms) see(Eigen::Map<const Eigen::Vector3f>(geom.pos).cast<double>());
   for (Eigen::Index k = 0; skin != nullptr && k < skin->point.cols(); ++k) {
     see(skin->point.col(k).cast<double>());
   }

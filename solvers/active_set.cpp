@@ -40,9 +40,7 @@ void ActiveSetBoxQp::solve(const BoxQp& qp, const Eigen::VectorXd& start, BoxQpS
     }
   }
   ActiveSetPivoting::Ending ending = ActiveSetPivoting::Ending::settled;
-  if (!pivoting_.change_blocks()) {
-    ending = pivoting_.change_singly();
-  }
+  if (!pivoting_.change_blocks()) ending = pivoting_.change_singly();
   solution.message.clear();
   solution.contradicting.clear();
   solution.x = pivoting_.x();

@@ -62,9 +62,7 @@ void ActiveSetFactor::reset(const Eigen::MatrixXd& A,
 
 bool ActiveSetFactor::change(std::span<const Eigen::Index> dropped,
                              std::span<const Eigen::Index> added) {
-  for (const Eigen::Index row : dropped) {
-    active_[row] = 0;
-  }
+  for (const Eigen::Index row : dropped) active_[row] = 0;
   const auto gone = [this](Eigen::Index row) { return active_[row] == 0; };
   const auto first = dropped.empty() ? rows_.end() : std::find_if(rows_.begin(), rows_.end(), gone);
   const auto known = first - rows_.begin();
@@ -98,9 +96,7 @@ Eigen::Index ActiveSetFactor::make_panel(Eigen::Index p) {
     Eigen::Map<Tile> made(column(p, q * tile_rows));
     Tile t = made;
     t -= tile_product(column(p, 0), tile_rows, column(q, 0), tile_rows, q * tile_rows);
-    if (q < p) {
-      solve_tile(column(q, q * tile_rows), &inverse_pivot_[q * tile_rows], t);
-    }
+    if (q < p) solve_tile(column(q, q * tile_rows), &inverse_pivot_[q * tile_rows], t);
     made = t;
   }
   return make_diagonal(p);
@@ -134,9 +130,7 @@ Eigen::Index ActiveSetFactor::make_diagonal(Eigen::Index p) {
   const Eigen::Index count = std::min<Eigen::Index>(tile_rows, std::ssize(rows_) - first);
   Eigen::Map<Tile> t(column(p, first));
   for (Eigen::Index j = 0; j < count; ++j) {
-    if (!accept(t(j, j), first + j)) {
-      return first + j;
-    }
+    if (!accept(t(j, j), first + j)) return first + j;
     inverse_pivot_[first + j] = 1 / std::sqrt(t(j, j));
     const Lanes l = t.col(j) * inverse_pivot_[first + j];
     t.col(j) = l;
@@ -158,9 +152,7 @@ bool ActiveSetFactor::accept(double pivot, Eigen::Index position) {
 /// before it in this one: errors of the entries come in with |e - r|² in the 1-norm.
 double ActiveSetFactor::pivot_rounding(Eigen::Index position) {
   const Eigen::Index p = position / tile_rows;
-  for (Eigen::Index k = 0; k < position; ++k) {
-    work_[k] = column(p, k)[position % tile_rows];
-  }
+  for (Eigen::Index k = 0; k < position; ++k) work_[k] = column(p, k)[position % tile_rows];
   solve_upper(position);
   const double sum = 1 + work_.head(position).lpNorm<1>();
   return entry_rounding * sum * sum;
@@ -170,14 +162,10 @@ Eigen::Ref<const Eigen::VectorXd> ActiveSetFactor::solve(
     const Eigen::Ref<const Eigen::VectorXd>& c) {
   const auto& s = *inverse_scale_;
   const Eigen::Index n = std::ssize(rows_);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    work_[i] = c[rows_[i]] * s[rows_[i]];
-  }
+  for (Eigen::Index i = 0; i < n; ++i) work_[i] = c[rows_[i]] * s[rows_[i]];
   solve_lower(n);
   solve_upper(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    work_[i] *= s[rows_[i]];
-  }
+  for (Eigen::Index i = 0; i < n; ++i) work_[i] *= s[rows_[i]];
   return work_.head(n);
 }
 

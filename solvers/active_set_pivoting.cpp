@@ -84,9 +84,7 @@ void ActiveSetPivoting::update_gradient() {
       }
     }
   }
-  for (std::size_t k = 0; k < waiting; ++k) {
-    w_ += x_[columns[k]] * qp_->A.col(columns[k]);
-  }
+  for (std::size_t k = 0; k < waiting; ++k) w_ += x_[columns[k]] * qp_->A.col(columns[k]);
   noise_ = rounding * sum;
 }
 
@@ -94,9 +92,7 @@ void ActiveSetPivoting::update_gradient() {
 int ActiveSetPivoting::push(Eigen::Index i) const {
   const double w = w_[i] * inverse_scale_[i];
   const double noise = noise_ + unsure_[i];
-  if (w < -noise) {
-    return x_[i] < qp_->upper[i] ? 1 : 0;
-  }
+  if (w < -noise) return x_[i] < qp_->upper[i] ? 1 : 0;
   return w > noise && x_[i] > qp_->lower[i] ? -1 : 0;
 }
 
@@ -123,9 +119,7 @@ void ActiveSetPivoting::clamp_active() {
     x_[i] = std::clamp(before, qp_->lower[i], qp_->upper[i]);
     moved = moved || x_[i] != before;
   }
-  if (moved) {
-    update_gradient();
-  }
+  if (moved) update_gradient();
 }
 
 bool ActiveSetPivoting::change_blocks() {
@@ -138,18 +132,14 @@ bool ActiveSetPivoting::change_blocks() {
     joining_.clear();
     for (Eigen::Index i = 0; i < x_.size(); ++i) {
       if (factor_.contains(i)) {
-        if (x_[i] < qp_->lower[i] || x_[i] > qp_->upper[i]) {
-          leaving_.push_back(i);
-        }
+        if (x_[i] < qp_->lower[i] || x_[i] > qp_->upper[i]) leaving_.push_back(i);
       } else if (push(i) != 0) {
         joining_.push_back(i);
       }
     }
     const std::size_t wrong = leaving_.size() + joining_.size();
     if (wrong == 0) {
-      if (from_far) {
-        solve_active();
-      }
+      if (from_far) solve_active();
       clamp_active();
       return true;
     }
@@ -159,9 +149,7 @@ bool ActiveSetPivoting::change_blocks() {
     } else if (tries-- == 0) {
       return false;
     }
-    if (stop_()) {
-      return false;
-    }
+    if (stop_()) return false;
     for (const Eigen::Index i : leaving_) {
       const double bound = std::clamp(x_[i], qp_->lower[i], qp_->upper[i]);
       w_ += (bound - x_[i]) * qp_->A.col(i);
@@ -175,9 +163,7 @@ bool ActiveSetPivoting::change_blocks() {
 void ActiveSetPivoting::enter_box() {
   leaving_.clear();
   for (const Eigen::Index i : factor_.rows()) {
-    if (x_[i] <= qp_->lower[i] || x_[i] >= qp_->upper[i]) {
-      leaving_.push_back(i);
-    }
+    if (x_[i] <= qp_->lower[i] || x_[i] >= qp_->upper[i]) leaving_.push_back(i);
   }
   clamp_active();
   factor_.remove(leaving_);
@@ -187,13 +173,9 @@ ActiveSetPivoting::Ending ActiveSetPivoting::change_singly() {
   enter_box();
   const auto most = 100 + 20 * static_cast<int>(x_.size());
   for (int k = 0; k < most; ++k) {
-    if (stop_()) {
-      return Ending::stopped;
-    }
+    if (stop_()) return Ending::stopped;
     update_gradient();
-    if (!descend()) {
-      continue;
-    }
+    if (!descend()) continue;
     const Eigen::Index row = worst_row();
     if (row < 0) {
       solve_active();
@@ -201,9 +183,7 @@ ActiveSetPivoting::Ending ActiveSetPivoting::change_singly() {
       return Ending::settled;
     }
     ++changes_;
-    if (!factor_.append({&row, 1}) && !exchange(row)) {
-      return Ending::contradiction;
-    }
+    if (!factor_.append({&row, 1}) && !exchange(row)) return Ending::contradiction;
   }
   return Ending::limit;
 }
@@ -236,16 +216,12 @@ Eigen::Index ActiveSetPivoting::advance(double longest) {
       first = k;
     }
   }
-  if (std::isinf(t)) {
-    return -1;
-  }
+  if (std::isinf(t)) return -1;
   for (std::size_t k = 0; k < moving_.size(); ++k) {
     const Eigen::Index i = moving_[k];
     x_[i] = std::clamp(x_[i] + t * step_[k], qp_->lower[i], qp_->upper[i]);
   }
-  if (first == moving_.size()) {
-    return -1;
-  }
+  if (first == moving_.size()) return -1;
   const Eigen::Index blocking = moving_[first];
   x_[blocking] = step_[first] > 0 ? qp_->upper[blocking] : qp_->lower[blocking];  // to the last bit
   return blocking;
@@ -282,29 +258,21 @@ bool ActiveSetPivoting::exchange(Eigen::Index row) {
     const double part = std::abs(step_[k]) * scale_[moving_[k]] * inverse_scale_[row];
     sum += part;
     unsure += part * unsure_[moving_[k]];
-    if (part <= least_share) {
-      step_[k] = 0;
-    }
+    if (part <= least_share) step_[k] = 0;
   }
   const double size = std::abs(w_[row]) * inverse_scale_[row];
   // w of `row` is the same sum of the active rows' w, so that it has the sum of their rounding. A
   // row that is off by no more is met: to choose it again would lead back here.
   tolerated_[row] = noise_ * sum + unsure;
-  if (size <= tolerated_[row]) {
-    return true;
-  }
+  if (size <= tolerated_[row]) return true;
   step_[share.size()] = sign;
   moving_.push_back(row);
   const Eigen::Index blocking = advance(infinity);
   if (blocking < 0) {
     tolerated_[row] = consistency * beta_ * sum + unsure;
-    if (size <= tolerated_[row]) {
-      return true;
-    }
+    if (size <= tolerated_[row]) return true;
     for (std::size_t k = 0; k < moving_.size(); ++k) {
-      if (step_[k] != 0) {
-        contradicting_.push_back(moving_[k]);
-      }
+      if (step_[k] != 0) contradicting_.push_back(moving_[k]);
     }
     std::sort(contradicting_.begin(), contradicting_.end());
     return false;

@@ -59,9 +59,7 @@ Eigen::VectorXd row_scale(const Eigen::MatrixXd& A) {
 }
 
 void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s) {
-  if (s.size() == 0) {
-    return;
-  }
+  if (s.size() == 0) return;
   s = A.diagonal().cwiseMax(0);  // side by side in memory, so that roots are taken in packets
   s = s.cwiseSqrt();
   const double largest = s.maxCoeff();
@@ -128,13 +126,9 @@ std::vector<std::string> box_qp_solver_names() {
 
 std::unique_ptr<BoxQpSolver> make_box_qp_solver(const std::string& name) {
 #if defined(HAGFISH_IPOPT)
-  if (name == "ipopt") {
-    return std::make_unique<IpoptBoxQp>();
-  }
+  if (name == "ipopt") return std::make_unique<IpoptBoxQp>();
 #endif
-  if (name == "active-set") {
-    return std::make_unique<ActiveSetBoxQp>();
-  }
+  if (name == "active-set") return std::make_unique<ActiveSetBoxQp>();
   std::string known;
   for (const std::string& one : box_qp_solver_names()) known += (known.empty() ? "" : ", ") + one;
   throw std::invalid_argument("unknown QP back end '" + name + "' (there are: " + known + ")");

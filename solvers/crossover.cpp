@@ -33,9 +33,7 @@ ActiveSetPivoting::Ending pivot_from(const BoxQp& qp, const Eigen::VectorXd& x,
 
 Eigen::VectorXd crossover(const BoxQp& qp, const Eigen::VectorXd& x) {
   ActiveSetPivoting pivoting;
-  if (pivot_from(qp, x, pivoting) != ActiveSetPivoting::Ending::settled) {
-    return x;
-  }
+  if (pivot_from(qp, x, pivoting) != ActiveSetPivoting::Ending::settled) return x;
   const Eigen::VectorXd point = pivoting.x();
   const double residual = natural_residual(qp, point);
   return residual <= settled && residual < natural_residual(qp, x) ? point : x;

@@ -73,9 +73,7 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
   std::vector<Eigen::Index> inside;  // of the bounded rows, those kept
   for (Eigen::Index k = 0; k < c.size(); ++k) {
     const Eigen::Index i = bounded[k];
-    if (!(qp.lower[i] < qp.upper[i])) {
-      continue;
-    }
+    if (!(qp.lower[i] < qp.upper[i])) continue;
     if (S(k, k) > rank_threshold * scale[i] * scale[i]) {
       inside.push_back(k);
       kept_.push_back(i);
@@ -98,9 +96,7 @@ BoundedPart::BoundedPart(const BoxQp& qp) : size_(qp.b.size()) {
 Eigen::VectorXd BoundedPart::expand(const Eigen::VectorXd& reduced_x) const {
   Eigen::VectorXd x = left_out_;
   x(kept_) = reduced_x;
-  if (!free_.empty()) {
-    x(free_) = free_at_zero_ + free_response_ * reduced_x;
-  }
+  if (!free_.empty()) x(free_) = free_at_zero_ + free_response_ * reduced_x;
   return x;
 }
 

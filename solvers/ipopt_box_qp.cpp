@@ -151,9 +151,7 @@ void centre_start(ScaledProblem& p, const IpoptSettings& settings) {
   p.start_upper.setZero(w.size());
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     const double width = qp.upper[i] - qp.lower[i];
-    if (std::isinf(qp.lower[i]) && std::isinf(qp.upper[i])) {
-      continue;
-    }
+    if (std::isinf(qp.lower[i]) && std::isinf(qp.upper[i])) continue;
     const double above = p.start[i] - qp.lower[i] - w[i];
     const double below = qp.upper[i] - p.start[i] + w[i];
     const double nearer = std::min(above, below);
@@ -316,9 +314,7 @@ void IpoptBoxQp::Engine::attempt(Ipopt::IpoptApplication& ipopt, const BoundedPa
   Eigen::VectorXd y = problem->y.cwiseMax(problem->qp.lower).cwiseMin(problem->qp.upper);
   y = problem->far_rhs.select(0, y);  // else a trace of the barrier stays, times a huge w
   // Only what is solved is polished: failures must show.
-  if (settings.polish && code == Ipopt::Solve_Succeeded) {
-    y = crossover(problem->qp, y);
-  }
+  if (settings.polish && code == Ipopt::Solve_Succeeded) y = crossover(problem->qp, y);
   solution.x = part.expand(
       unit.cwiseProduct(y).cwiseMax(part.reduced().lower).cwiseMin(part.reduced().upper));
   solution.message = "Ipopt return code " + std::to_string(static_cast<int>(code));

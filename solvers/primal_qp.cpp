@@ -24,12 +24,8 @@ void check_primal_qp(const PrimalQp& qp) {
 
 Eigen::MatrixXd all_rows(const PrimalQp& qp) {
   Eigen::MatrixXd J(qp.e.size() + qp.d.size(), qp.g.size());
-  if (qp.e.size() > 0) {
-    J.topRows(qp.e.size()) = qp.G;
-  }
-  if (qp.d.size() > 0) {
-    J.bottomRows(qp.d.size()) = qp.C;
-  }
+  if (qp.e.size() > 0) J.topRows(qp.e.size()) = qp.G;
+  if (qp.d.size() > 0) J.bottomRows(qp.d.size()) = qp.C;
   return J;
 }
 
@@ -42,9 +38,7 @@ BoxQp dual_of(const PrimalQp& qp) {
   const Eigen::MatrixXd J = all_rows(qp);
   const Eigen::Index p = qp.e.size();
   BoxQp dual;
-  if (J.rows() == 0) {
-    return dual;
-  }
+  if (J.rows() == 0) return dual;
   const Eigen::MatrixXd half = factor.matrixL().solve(J.transpose());
   dual.A = half.transpose() * half;
   dual.b.resize(J.rows());

@@ -28,9 +28,7 @@ using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 LongMatrix root_of(const LongMatrix& A) {
   const Eigen::LDLT<LongMatrix> factor(A);  // pivots fall
   Eigen::Index rank = 0;
-  while (rank < A.rows() && factor.vectorD()[rank] > rank_threshold) {
-    ++rank;
-  }
+  while (rank < A.rows() && factor.vectorD()[rank] > rank_threshold) ++rank;
   const LongMatrix lower = factor.matrixL();
   const LongMatrix in_order = factor.transpositionsP().transpose() * lower.leftCols(rank);
   return factor.vectorD().head(rank).cwiseSqrt().asDiagonal() * in_order.transpose();
@@ -43,21 +41,15 @@ QpReference::QpReference(const BoxQp& qp) {
   A_ = qp.A.cast<Real>();
   b_ = qp.b.cast<Real>();
   scale(qp);
-  if (b_.size() > 0) {
-    half_ = root_of(A_);
-  }
+  if (b_.size() > 0) half_ = root_of(A_);
 }
 
 QpReference::QpReference(const PrimalQp& qp) {
   const BoxQp dual = dual_of(qp);
   Matrix rows(dual.b.size(), qp.g.size());
   Vector rhs(dual.b.size());
-  if (qp.e.size() > 0) {
-    rows.topRows(qp.e.size()) = qp.G.cast<Real>();
-  }
-  if (qp.d.size() > 0) {
-    rows.bottomRows(qp.d.size()) = qp.C.cast<Real>();
-  }
+  if (qp.e.size() > 0) rows.topRows(qp.e.size()) = qp.G.cast<Real>();
+  if (qp.d.size() > 0) rows.bottomRows(qp.d.size()) = qp.C.cast<Real>();
   rhs << qp.e.cast<Real>(), qp.d.cast<Real>();
   const Eigen::LLT<Matrix> factor(qp.H.cast<Real>());
   free_velocity_ = factor.solve(qp.g.cast<Real>());
@@ -89,13 +81,9 @@ void QpReference::scale(const BoxQp& qp) {
 void QpReference::solve_active() {
   std::vector<Eigen::Index> active;
   for (Eigen::Index i = 0; i < b_.size(); ++i) {
-    if (side_[i] == Side::active) {
-      active.push_back(i);
-    }
+    if (side_[i] == Side::active) active.push_back(i);
   }
-  if (active.empty()) {
-    return;
-  }
+  if (active.empty()) return;
   Eigen::CompleteOrthogonalDecomposition<Matrix> factor;
   factor.setThreshold(rank_threshold);
   factor.compute(A_(active, active));
@@ -136,9 +124,7 @@ QpReference::Real QpReference::judge() {
         error = std::max(w, Real{0});
         break;
     }
-    if (side_[i] != Side::active && error > tight * terms) {
-      wrong_.emplace_back(i, Side::active);
-    }
+    if (side_[i] != Side::active && error > tight * terms) wrong_.emplace_back(i, Side::active);
     worst = std::max(worst, error > 0 ? error / std::max(terms, largest) : 0);
   }
   return worst;
@@ -150,9 +136,7 @@ bool QpReference::solve(const Eigen::VectorXd& guess) {
   side_.assign(b_.size(), Side::active);
   const auto move = [this](Eigen::Index i, Side side) {
     side_[i] = side;
-    if (side != Side::active) {
-      x_[i] = side == Side::lower ? lower_[i] : upper_[i];
-    }
+    if (side != Side::active) x_[i] = side == Side::lower ? lower_[i] : upper_[i];
   };
   for (Eigen::Index i = 0; i < b_.size(); ++i) {
     if (x_[i] - lower_[i] < w[i] || !(lower_[i] < upper_[i])) {
@@ -166,18 +150,14 @@ bool QpReference::solve(const Eigen::VectorXd& guess) {
   for (Eigen::Index change = 0; change <= changes_per_row * b_.size(); ++change) {
     solve_active();
     const Real error = judge();
-    if (wrong_.empty()) {
-      return error <= accepted;
-    }
+    if (wrong_.empty()) return error <= accepted;
     if (wrong_.size() < least) {
       least = wrong_.size();
       tries = patience;
     } else if (--tries < 0) {
       wrong_.erase(wrong_.begin(), wrong_.end() - 1);  // Murty's rule: the last row alone
     }
-    for (const auto& [i, side] : wrong_) {
-      move(i, side);
-    }
+    for (const auto& [i, side] : wrong_) move(i, side);
   }
   return false;
 }

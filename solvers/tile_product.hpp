@@ -28,9 +28,7 @@ inline Tile tile_product(const double* left, Eigen::Index left_stride, const dou
     const double* v_k = right + first;
     for (Eigen::Index k = 0; k < count; ++k, u_k += left_stride, v_k += right_stride) {
       const Column u = Eigen::Map<const Column>(u_k);
-      for (int j = 0; j < tile_part; ++j) {
-        part.col(j) += u * v_k[j];
-      }
+      for (int j = 0; j < tile_part; ++j) part.col(j) += u * v_k[j];
     }
     tile.middleCols<tile_part>(first) = part;
   }

@@ -79,9 +79,7 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
                                 std::to_string(k) + " (pivot " + std::to_string(pivot) + ")");
       }
       const Column share = inverse * u;
-      for (int i = 0; i < 6; ++i) {
-        articulated.col(i) -= u[i] * share;
-      }
+      for (int i = 0; i < 6; ++i) articulated.col(i) -= u[i] * share;
       u = product - coupling * share;
       coupling = k == 0 ? 0 : kin.axis.col(k - 1).dot(u.head<6>());
       weighted_.col(k) = u.head<6>();
@@ -183,17 +181,13 @@ void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
       const Vector6d axis = share * kin.axis.col(k);
       const Vector6d weighted = share * weighted_.col(k);
       const bool loaded = columns.newest_joint_[k] >= 0;
-      if (loaded) {
-        y.row(k).head(columns.width_[k]).setZero();
-      }
+      if (loaded) y.row(k).head(columns.width_[k]).setZero();
       for (int i = columns.newest_joint_[k]; i >= 0; i = columns.joint_loads_[i].next) {
         y(k, columns.joint_loads_[i].column) += share * columns.joint_loads_[i].force;
       }
       for (Eigen::Index first = 0; first < columns.width_[k]; first += RowColumns::panel) {
         Panel own = Panel::Zero();
-        if (loaded) {
-          own = y.row(k).segment<RowColumns::panel>(first);
-        }
+        if (loaded) own = y.row(k).segment<RowColumns::panel>(first);
         for (int i = 0; i < 6; ++i) {
           own += axis[i] * sum.row(i).segment<RowColumns::panel>(first).array();
         }

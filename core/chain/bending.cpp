@@ -30,9 +30,7 @@ Bend total_bend(double y, double z) {
   const Direction d = direction(y, z);
   // The arc tangent keeps all digits of small angles, which the arc cosine loses.
   Bend bend{std::atan2(d.across, d.along)};
-  if (d.across > 0) {
-    bend.slope << d.z / d.across, std::cos(y) * d.y / d.across;
-  }
+  if (d.across > 0) bend.slope << d.z / d.across, std::cos(y) * d.y / d.across;
   return bend;
 }
 
@@ -47,9 +45,7 @@ Eigen::Vector2d bend_to(double y, double z, double angle) {
 double past_cone(const BendingCone& cone, const Eigen::VectorXd& q) {
   const auto angles = q.segment<2>(cone.dof + 1);
   // θ <= sqrt(y² + z²): most joints are within their cones by this.
-  if (angles.squaredNorm() <= cone.limit * cone.limit) {
-    return 0;
-  }
+  if (angles.squaredNorm() <= cone.limit * cone.limit) return 0;
   const double angle = std::max(total_bend(angles[0], angles[1]).angle,
                                 angles.lpNorm<Eigen::Infinity>());  // the first up to 90 degrees
   return std::max(0.0, angle - cone.limit);

@@ -114,9 +114,7 @@ Matrix6d body_inertia(const Model& model, const Kinematics& kin, int body) {
 
 std::vector<PaddedOperator> body_inertias(const Model& model, const Kinematics& kin) {
   std::vector<PaddedOperator> inertia(model.bodies.size());
-  for (int b = 0; b < model.body_count(); ++b) {
-    inertia[b] = body_inertia(model, kin, b);
-  }
+  for (int b = 0; b < model.body_count(); ++b) inertia[b] = body_inertia(model, kin, b);
   return inertia;
 }
 

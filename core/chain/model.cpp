@@ -75,9 +75,7 @@ std::string dof_name(const Model& model, int dof) {
   int first = 0;
   for (const JointName& joint : joint_names(model)) {
     const int count = static_cast<int>(joint.dofs.size());
-    if (dof < first + count) {
-      return joint.dofs.at(dof - first);
-    }
+    if (dof < first + count) return joint.dofs.at(dof - first);
     first += count;
   }
   throw std::out_of_range("no velocity " + std::to_string(dof));
@@ -115,9 +113,7 @@ void append_body(Model& model, const Body& body, const std::vector<Axis>& axes) 
   model.bodies.push_back(body);
   model.bodies.back().first_dof = index == 0 ? 0 : model.nv();
   model.bodies.back().dofs = index == 0 ? root_dofs : static_cast<int>(axes.size());
-  for (Axis axis : axes) {
-    model.hinges.push_back({index, axis, -unbounded, unbounded, 0, 0});
-  }
+  for (Axis axis : axes) model.hinges.push_back({index, axis, -unbounded, unbounded, 0, 0});
 }
 
 Eigen::Vector3d cylinder_inertia(double mass, double length, double radius) {
@@ -147,9 +143,7 @@ double hinge_span(const Model& model, int body) {
 
 std::vector<Obstacle> obstacles_of(const Scene& scene) {
   std::vector<Obstacle> all;
-  if (scene.wall.present) {
-    all.push_back({"head plate", Plane{.neck = scene.wall.neck}});
-  }
+  if (scene.wall.present) all.push_back({"head plate", Plane{.neck = scene.wall.neck}});
   all.insert(all.end(), scene.obstacles.begin(), scene.obstacles.end());
   return all;
 }
@@ -229,9 +223,7 @@ Model make_hagfish(const Specimen& specimen, const Scene& scene) {
     }
   }
   for (int b = 1; b < n; ++b) set_joint(specimen, settings, b, model);
-  if (scene.muscle.present) {
-    model.muscles = muscles_of(specimen, model);
-  }
+  if (scene.muscle.present) model.muscles = muscles_of(specimen, model);
   return model;
 }
 

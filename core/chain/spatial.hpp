@@ -33,9 +33,7 @@ Eigen::Vector3d point_velocity(const Twist& twist, const Eigen::Vector3d& offset
 inline Matrix6d point_operator(const Eigen::Matrix3d& angular, const Eigen::Matrix3d& linear,
                                const Eigen::Vector3d& offset) {
   Eigen::Matrix3d moment;  // [offset] linear
-  for (int i = 0; i < 3; ++i) {
-    moment.col(i) = offset.cross(linear.col(i));
-  }
+  for (int i = 0; i < 3; ++i) moment.col(i) = offset.cross(linear.col(i));
   Matrix6d m;
   for (int i = 0; i < 3; ++i) {  // angular + moment [offset]'
     m.block<1, 3>(i, 0) = angular.row(i) + offset.cross(moment.row(i).transpose()).transpose();

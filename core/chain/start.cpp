@@ -13,16 +13,12 @@ namespace {
 Eigen::VectorXd hinge_shares(const Model& model, const std::vector<Eigen::Vector4d>& bend) {
   const auto count = static_cast<Eigen::Index>(model.hinges.size());
   Eigen::VectorXd share = Eigen::VectorXd::Zero(count);
-  if (bend.empty()) {
-    return share;
-  }
+  if (bend.empty()) return share;
   std::vector<double> station;
   std::array<std::vector<double>, 3> about;
   for (const Eigen::Vector4d& row : bend) {
     station.push_back(row[0]);
-    for (int axis = 0; axis < 3; ++axis) {
-      about[axis].push_back(row[1 + axis]);
-    }
+    for (int axis = 0; axis < 3; ++axis) about[axis].push_back(row[1 + axis]);
   }
   const int n = model.body_count();
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -40,9 +36,7 @@ void stop_at_limits(const Model& model, State& state) {
   }
   for (const BendingCone& cone : model.cones) {
     auto angles = state.q.segment<2>(cone.dof + 1);
-    if (past_cone(cone, state.q) > 0) {
-      angles = bend_to(angles[0], angles[1], cone.limit);
-    }
+    if (past_cone(cone, state.q) > 0) angles = bend_to(angles[0], angles[1], cone.limit);
   }
 }
 
@@ -67,9 +61,7 @@ State start_state(const Model& model, const StartSettings& settings) {
   if (settings.noise > 0) {
     std::mt19937 random(settings.seed);
     std::normal_distribution<double> normal(0, settings.noise);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      state.q[root_dofs + 1 + k] += normal(random);
-    }
+    for (Eigen::Index k = 0; k < count; ++k) state.q[root_dofs + 1 + k] += normal(random);
     stop_at_limits(model, state);
   }
   return state;

@@ -22,9 +22,7 @@ template <class Visit>
 void visit_ends(const std::vector<SplineSegment>& segments, const Visit& visit) {
   constexpr double third = 1.0 / 3;
   const auto n = static_cast<Eigen::Index>(segments.size());
-  for (Eigen::Index k = 0; k < n; ++k) {
-    visit(k, segments[k].c0, (third * segments[k].c1).eval());
-  }
+  for (Eigen::Index k = 0; k < n; ++k) visit(k, segments[k].c0, (third * segments[k].c1).eval());
   visit(n, segments.back().point(1), (third * segments.back().slope(1)).eval());
 }
 
@@ -130,19 +128,13 @@ void find_pairs_to_evaluate(const Candidates& candidates, std::vector<int>& pair
 }
 
 int find_pair(const Candidates& candidates, int a, int b) {
-  if (a < 0 || a + 1 >= static_cast<int>(candidates.first.size())) {
-    return -1;
-  }
+  if (a < 0 || a + 1 >= static_cast<int>(candidates.first.size())) return -1;
   // The partners of a segment mostly follow each other.
   const int first = candidates.first[a];
   const int last = candidates.first[a + 1];
-  if (first == last || b < candidates.pairs[first].b) {
-    return -1;
-  }
+  if (first == last || b < candidates.pairs[first].b) return -1;
   int i = std::min(first + b - candidates.pairs[first].b, last - 1);
-  while (candidates.pairs[i].b > b) {
-    --i;
-  }
+  while (candidates.pairs[i].b > b) --i;
   return candidates.pairs[i].b == b ? i : -1;
 }
 

@@ -166,6 +166,61 @@ void move(const LaneMask& which, const Iterate& next, Iterate& at) {
   at.gap = which ? next.gap : at.gap;
 }
 
+/// How the gap changes with both parameters at an iterate.
+struct Slopes {
+  Lanes ga, gb;  ///< gradient: Eq. 5 over the distance, with the taper of the body
+  /// Inverse of the part of each diagonal entry of the Hessian that is always positive, |x'|² over
+  /// the distance; and the root of both.
+  Lanes width_a, width_b, width;
+  /// Hessian over that part. So it has no unit, and least_share suits segments of any length.
+  Lanes haa, hbb, hab;
+};
+
+Slopes slopes_at(const LaneSegments& a, const LaneSegments& b, const Iterate& at) {
+  const Lanes one = lanes_of(1);
+  const Lanes inverse = one / at.distance;
+  const LaneVector n = inverse * at.apart;
+  const LaneVector xa = a.slope(at.t_a);
+  const LaneVector xb = b.slope(at.t_b);
+  const Lanes an = dot(xa, n);
+  const Lanes bn = dot(xb, n);
+  Slopes s;
+  s.ga = -an - a.r1;
+  s.gb = bn - b.r1;
+  s.width_a = one / (dot(xa, xa) * inverse);
+  s.width_b = one / (dot(xb, xb) * inverse);
+  s.width = root(s.width_a * s.width_b);
+  s.haa = one - (an * an * inverse + dot(a.bend(at.t_a), n)) * s.width_a;
+  s.hbb = one - (bn * bn * inverse - dot(b.bend(at.t_b), n)) * s.width_b;
+  s.hab = -(dot(xa, xb) - an * bn) * inverse * s.width;
+  return s;
+}
+
+/// A positive symmetric matrix.
+struct Positive {
+  Lanes aa, bb, ab;
+};
+
+/// The Hessian, or what stands for it where it is not positive.
+Positive made_positive(const Slopes& s) {
+  const Lanes zero{};
+  const Lanes one = lanes_of(1);
+  // Where the Hessian is indefinite, the gap falls from a crest towards both ends of a valley,
+  // faster further away from the crest. |H|, with its eigenvalues m ± r made positive, doubles the
+  // distance at each step: it is (m H + (r² - m²) 1) / r.
+  const Lanes determinant = s.haa * s.hbb - s.hab * s.hab;
+  const Lanes mean = 0.5 * (s.haa + s.hbb);
+  const Lanes inverse_radius = one / root(mean * mean - determinant);
+  const LaneMask crest = determinant < lanes_of(-least_share);
+  const Lanes turn = crest ? mean * inverse_radius : one;
+  const Lanes lift = crest ? -determinant * inverse_radius : zero;
+  const LaneMask regular = crest | ((s.haa > zero) & (determinant > lanes_of(least_share)));
+  // Elsewhere 2 stands for the positive part, whose eigenvalues are 1 ± |cos| of the slopes' angle:
+  // a step that far along the gradient does not overshoot it.
+  return {regular ? turn * s.haa + lift : 2 * one, regular ? turn * s.hbb + lift : 2 * one,
+          regular ? turn * s.hab : zero};
+}
+
 struct Direction {
   Lanes a, b;       ///< step of each parameter, 0 if it is not free
   LaneMask moving;  ///< whether at least one is free
@@ -176,46 +231,21 @@ struct Direction {
 Direction direction(const LaneSegments& a, const LaneSegments& b, const Iterate& at) {
   const Lanes zero{};
   const Lanes one = lanes_of(1);
-  const Lanes inverse = one / at.distance;
-  const LaneVector n = inverse * at.apart;
-  const LaneVector xa = a.slope(at.t_a);
-  const LaneVector xb = b.slope(at.t_b);
-  const Lanes an = dot(xa, n);
-  const Lanes bn = dot(xb, n);
-  // Eq. 5 over the distance, with the taper of the body.
-  const Lanes ga = -an - a.r1;
-  const Lanes gb = bn - b.r1;
-  const LaneMask free_a = ~(((at.t_a <= zero) & (ga >= zero)) | ((at.t_a >= one) & (ga <= zero)));
-  const LaneMask free_b = ~(((at.t_b <= zero) & (gb >= zero)) | ((at.t_b >= one) & (gb <= zero)));
-  // The Hessian over the part of its diagonal that is always positive, |x'|² over the distance. So
-  // it has no unit, and least_share suits segments of any length.
-  const Lanes width_a = one / (dot(xa, xa) * inverse);
-  const Lanes width_b = one / (dot(xb, xb) * inverse);
-  const Lanes width = root(width_a * width_b);
-  const Lanes haa = one - (an * an * inverse + dot(a.bend(at.t_a), n)) * width_a;
-  const Lanes hbb = one - (bn * bn * inverse - dot(b.bend(at.t_b), n)) * width_b;
-  const Lanes hab = -(dot(xa, xb) - an * bn) * inverse * width;
-  // Where the Hessian is indefinite, the gap falls from a crest towards both ends of a valley,
-  // faster further away from the crest. |H|, with its eigenvalues m ± r made positive, doubles the
-  // distance at each step: it is (m H + (r² - m²) 1) / r.
-  const Lanes determinant = haa * hbb - hab * hab;
-  const Lanes mean = 0.5 * (haa + hbb);
-  const Lanes inverse_radius = one / root(mean * mean - determinant);
-  const LaneMask crest = determinant < lanes_of(-least_share);
-  const Lanes turn = crest ? mean * inverse_radius : one;
-  const Lanes lift = crest ? -determinant * inverse_radius : zero;
-  const LaneMask regular = crest | ((haa > zero) & (determinant > lanes_of(least_share)));
-  // Elsewhere 2 stands for the positive part, whose eigenvalues are 1 ± |cos| of the slopes' angle:
-  // a step that far along the gradient does not overshoot it.
-  const Lanes maa = regular ? turn * haa + lift : 2 * one;
-  const Lanes mbb = regular ? turn * hbb + lift : 2 * one;
-  const Lanes mab = regular ? turn * hab : zero;
+  const Slopes s = slopes_at(a, b, at);
+  const LaneMask free_a =
+      ~(((at.t_a <= zero) & (s.ga >= zero)) | ((at.t_a >= one) & (s.ga <= zero)));
+  const LaneMask free_b =
+      ~(((at.t_b <= zero) & (s.gb >= zero)) | ((at.t_b >= one) & (s.gb <= zero)));
   const LaneMask both = free_a & free_b;
-  const Lanes alone = magnitude(free_a ? haa : hbb);  // |h|: downhill also on a crest
-  const Lanes divisor = both ? maa * mbb - mab * mab : alone;
+  // The step is -M⁻¹ g of both parameters, or -g / |h| of one alone: downhill also on a crest.
+  const Positive m = made_positive(s);
+  const Lanes alone = magnitude(free_a ? s.haa : s.hbb);
+  const Lanes divisor = both ? m.aa * m.bb - m.ab * m.ab : alone;
   const Lanes share = divisor > lanes_of(least_share) ? one / divisor : one;
-  const Lanes step_a = share * (both ? mab * width * gb - mbb * width_a * ga : -width_a * ga);
-  const Lanes step_b = share * (both ? mab * width * ga - maa * width_b * gb : -width_b * gb);
+  const Lanes step_a =
+      share * (both ? m.ab * s.width * s.gb - m.bb * s.width_a * s.ga : -s.width_a * s.ga);
+  const Lanes step_b =
+      share * (both ? m.ab * s.width * s.ga - m.aa * s.width_b * s.gb : -s.width_b * s.gb);
   return {free_a ? step_a : zero, free_b ? step_b : zero, free_a | free_b};
 }
 
@@ -245,9 +275,7 @@ void descend_lanes(const LaneSegments& a, const LaneSegments& b, Iterate& at) {
       length *= 0.5;
     }
     active &= ~last;
-    if (!any(active)) {
-      return;
-    }
+    if (!any(active)) return;
   }
 }
 
@@ -334,9 +362,7 @@ void ClosestPointsSearch::descend(std::span<ClosestPointsQuery> queries, std::si
   descend_lanes(a, b, at);
   for (int k = 0; k < count; ++k) {
     ClosestPoints& closest = queries[descents_[first + k].query].closest;
-    if (at.gap[k] < closest.gap) {
-      closest = {at.t_a[k], at.t_b[k], at.gap[k]};
-    }
+    if (at.gap[k] < closest.gap) closest = {at.t_a[k], at.t_b[k], at.gap[k]};
   }
 }
 

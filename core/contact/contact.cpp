@@ -26,9 +26,7 @@ void evaluate(const std::vector<SplineSegment>& segments, const ContactSettings&
     candidates.clear_until[index] =
         candidates.displacement_of(index) + closest.gap - settings.margin;
     scratch.known[index] = PairState::evaluated;
-    if (closest.gap <= settings.margin) {
-      scratch.close.push_back(index);
-    }
+    if (closest.gap <= settings.margin) scratch.close.push_back(index);
   }
 }
 
@@ -48,9 +46,7 @@ void visit_across(const Candidates& candidates, int index, const Visit& visit) {
   const int step_b = across(candidates.closest[index]->t_b);
   for (const auto& [da, db] : {std::pair(step_a, 0), {0, step_b}, {step_a, step_b}}) {
     const int other = da == 0 && db == 0 ? -1 : find_pair(candidates, own.a + da, own.b + db);
-    if (other >= 0 && !visit(other)) {
-      return;
-    }
+    if (other >= 0 && !visit(other)) return;
   }
 }
 
@@ -59,9 +55,7 @@ void visit_across(const Candidates& candidates, int index, const Visit& visit) {
 /// has not evaluated are ignored. Gaps that differ by less than `same` (cm) count as equal.
 bool is_local_minimum(const ContactSearch& search, double same, int index) {
   const std::vector<std::optional<ClosestPoints>>& closest = search.candidates.closest;
-  if (search.scratch.known[index] == PairState::beaten) {
-    return false;
-  }
+  if (search.scratch.known[index] == PairState::beaten) return false;
   bool lowest = true;
   visit_across(search.candidates, index, [&](int other) {
     if (search.scratch.known[other] >= PairState::evaluated) {
@@ -145,9 +139,7 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
   search.scratch.known.assign(candidates.pairs.size(), PairState::unknown);
   search.scratch.close.clear();
   find_pairs_to_evaluate(candidates, search.scratch.queue);
-  for (const int index : search.scratch.queue) {
-    search.scratch.known[index] = PairState::queued;
-  }
+  for (const int index : search.scratch.queue) search.scratch.known[index] = PairState::queued;
   evaluate_with_neighbours(segments, settings, search);
   set.contacts.clear();
   set.on_obstacles.clear();
@@ -158,9 +150,7 @@ void find_contacts(const std::vector<SplineSegment>& segments, const ContactSett
     const ClosestPoints& closest = *candidates.closest[index];
     const double gap = closest.gap;
     set.least_gap = std::min(set.least_gap, gap);
-    if (!minimum) {
-      candidates.clear_until[index] = candidates.displacement_of(index) + gap - near;
-    }
+    if (!minimum) candidates.clear_until[index] = candidates.displacement_of(index) + gap - near;
     if (minimum || gap < near) {
       const SegmentPair& pair = candidates.pairs[index];
       const Contact contact = contact_at(segments, pair.a, closest.t_a, pair.b, closest.t_b);

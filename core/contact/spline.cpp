@@ -17,9 +17,7 @@ SplineMix spline_mix(int segment, double t, int bodies) {
   mix.first = at_head ? 0 : segment - 1;
   const int skipped = at_head ? 1 : 0;
   mix.count = 4 - skipped - (at_tail ? 1 : 0);
-  for (int k = 0; k < mix.count; ++k) {
-    mix.weight[k] = w[k + skipped];
-  }
+  for (int k = 0; k < mix.count; ++k) mix.weight[k] = w[k + skipped];
   if (at_head) {  // the phantom before the head is 2 p0 - p1
     mix.weight[0] += 2 * w[0];
     mix.weight[1] -= w[0];

@@ -25,9 +25,7 @@ void look_at_knot(const Scene& scene, const Observation& observation, double tim
   controller.knot_seen = time;
   controller.knot = knot_type(observation.kin.centre, scene.knot);
   if (controller.knot.type != before) {
-    if (before != KnotInvariants{}) {
-      controller.past = {before, controller.knot_from, time};
-    }
+    if (before != KnotInvariants{}) controller.past = {before, controller.knot_from, time};
     controller.knot_from = time;
   }
 }
@@ -39,9 +37,7 @@ std::string knot_seen_text(const ControllerState& controller) {
                        controller.knot_from);
   }
   const PastKnot& past = controller.past;
-  if (past.type == KnotInvariants{}) {
-    return "no knot (none was tied before)";
-  }
+  if (past.type == KnotInvariants{}) return "no knot (none was tied before)";
   return fmt::format("no knot (there was a {} from {:.2f} to {:.2f} s)", knot_name(past.type),
                      past.from, past.to);
 }
@@ -77,9 +73,7 @@ Status switch_by_knot(const Model& model, const Scene& scene, double time,
   } else if (holds_knot(controller.phase) && !tied) {
     const std::string message =
         fmt::format("the {} was lost: now {}", scene.expect.knot, knot_seen_text(controller));
-    if (scene.guard.action == GuardAction::stop) {
-      return {Outcome::knot_lost, message};
-    }
+    if (scene.guard.action == GuardAction::stop) return {Outcome::knot_lost, message};
     controller.lost = message;
   } else if (controller.phase == Phase::release && controller.knot.type == KnotInvariants{} &&
              time + 0.5 * scene.time.step >= controller.knot_from + scene.controller.untied_for) {
@@ -121,9 +115,7 @@ void switch_by_span(const Model& model, const Scene& scene, double time,
 bool food_gives(const Scene& scene, double time, PullSum& pull) {
   const double h = scene.time.step;
   const double window = std::max(1.0, std::round(scene.food.average / h));  // in steps
-  if (std::fmod(std::round(time / h), window) != 0) {
-    return false;
-  }
+  if (std::fmod(std::round(time / h), window) != 0) return false;
   const bool gives =
       pull.steps == window && pull.sum > scene.food.strength * dyn_per_newton * pull.steps;
   pull = {};
@@ -133,9 +125,7 @@ bool food_gives(const Scene& scene, double time, PullSum& pull) {
 }  // namespace
 
 std::optional<KnotSpan> knot_span(const ControllerState& controller) {
-  if (!controller.ends.first || !controller.ends.last) {
-    return std::nullopt;
-  }
+  if (!controller.ends.first || !controller.ends.last) return std::nullopt;
   return KnotSpan{controller.ends.head_end, controller.ends.tail_end};
 }
 
@@ -158,9 +148,7 @@ Status follow(const Model& model, const Scene& scene, const ObservedState& now, 
   if (controller.phase != Phase::free &&
       time + 0.5 * scene.time.step >= controller.knot_seen + scene.knot.interval) {
     look_at_knot(scene, observation, time, controller);
-    if (Status status = switch_by_knot(model, scene, time, controller); !status.ok()) {
-      return status;
-    }
+    if (Status status = switch_by_knot(model, scene, time, controller); !status.ok()) return status;
   }
   switch_by_span(model, scene, time, controller);
   // Half a step of slack, as above.
@@ -191,9 +179,7 @@ void command(const Model& model, const Scene& scene, const ObservedState& now, d
     throw std::invalid_argument(
         R"(the program sets a control law, so controller.law must be "own")");
   }
-  if (control.torque.rate.size() == 0) {
-    control.torque.rate.setZero(control.torque.value.size());
-  }
+  if (control.torque.rate.size() == 0) control.torque.rate.setZero(control.torque.value.size());
   check_control(model, control);
   controller.rest_shape = control.rest_shape;
   if (control.rest_shape.size() > 0) {
@@ -212,9 +198,7 @@ Status decide(const Model& model, const Scene& scene, const ObservedState& now, 
               NamedLaw& named, ControllerState& controller, Control& control,
               const ControlLaw& own) {
   Status status = follow(model, scene, now, time, controller);
-  if (status.ok()) {
-    command(model, scene, now, time, own, named, controller, control);
-  }
+  if (status.ok()) command(model, scene, now, time, own, named, controller, control);
   return status;
 }
 

@@ -29,9 +29,7 @@ std::optional<SceneFault> knot_speed_fault(const Specimen& /*specimen*/, const S
 /// KnotSpeedSettings. `memory`: smoothed arc length of the head end, cm; scale.
 void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& control) {
   paper_law(at, control);
-  if (at.so_far.phase != Phase::slide || control.thigmotaxis.empty()) {
-    return;
-  }
+  if (at.so_far.phase != Phase::slide || control.thigmotaxis.empty()) return;
   const KnotSpeedSettings& loop = at.scene.controller.knot_speed;
   const double h = at.scene.time.step;
   const double arc = control.thigmotaxis[0].contact.arc_a;
@@ -59,6 +57,7 @@ extern constinit const Law knot_speed_record{
     .description = "the paper's, its speeds scaled until the knot has the speed wanted",
     .make = [] { return ControlLaw(knot_speed_law); },
     .memory_size = [](const Model& /*model*/, const Scene& /*scene*/) { return knot_speed_memory; },
-    .fault = knot_speed_fault};
+    .fault = knot_speed_fault,
+    .table = "knot_speed"};
 
 }  // namespace hagfish

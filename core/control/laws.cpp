@@ -12,7 +12,9 @@ namespace {
 
 constexpr Law own_record{.name = own_law,
                          .description = "of the C++ or Python program that runs the scene",
-                         .make = nullptr};
+                         .make = nullptr,
+                         .bends = true,
+                         .drives_muscles = true};
 
 constexpr const Law* table[] = {&paper_record,          &all_contacts_record, &knot_speed_record,
                                 &reduced_basis_record,  &muscles_record,      &reflex_record,

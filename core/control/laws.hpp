@@ -68,6 +68,12 @@ struct Law {
 
   /// Whether it asks for Eq. 6 while the knot slides.
   bool asks_for_eq6 = true;
+  /// Whether it gives the animal a rest shape where no curvature program does.
+  bool bends = false;
+  /// Whether muscles move the animal by their activations.
+  bool drives_muscles = false;
+  /// Its own table in [controller], empty where it has none.
+  std::string_view table = "";
 };
 
 /// All laws.

@@ -64,6 +64,7 @@ inline constexpr LawNumbers driven_numbers[] = {
 constexpr Law driven_law(Law law) {
   law.numbers = driven_numbers;
   law.asks_for_eq6 = false;
+  law.drives_muscles = true;
   return law;
 }
 

@@ -62,9 +62,7 @@ void paper_law(const Situation& at, Control& control) {
 
 void all_contacts_law(const Situation& at, Control& control) {
   paper_law(at, control);
-  if (control.thigmotaxis.empty() || at.so_far.phase == Phase::tighten) {
-    return;
-  }
+  if (control.thigmotaxis.empty() || at.so_far.phase == Phase::tighten) return;
   const ThigmotaxisCommand first = control.thigmotaxis[0];
   const Contact last = control.thigmotaxis[1].contact;  // a copy: the list grows below
   const ThigmotaxisSpeeds speed = commanded_speeds(at).first;

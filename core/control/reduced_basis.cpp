@@ -92,7 +92,7 @@ Eq6 eq6_after(const Situation& at, double h, const Eigen::MatrixXd& shapes,
   for (Eigen::Index i = 0; i < problem.qp.b.size(); ++i) {
     if (row_of(i).kind == RowKind::thigmotaxis) {
       asked.push_back(i);
-    } else if (step.lambda[step.prescribed + i] != 0) {
+    } else if (step.multipliers[step.prescribed + i] != 0) {
       bearing.push_back(i);
     }
   }
@@ -289,6 +289,7 @@ extern constinit const Law reduced_basis_record{
       return head + 2 * basis_size(scene.controller.reduced_basis);
     },
     .fault = fault,
-    .numbers = numbers};
+    .numbers = numbers,
+    .table = "reduced_basis"};
 
 }  // namespace hagfish

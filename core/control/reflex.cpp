@@ -186,7 +186,9 @@ extern constinit const Law reflex_record{
     .memory_size = reflex_memory_size,
     .fault = reflex_fault,
     .numbers = numbers,
-    .asks_for_eq6 = false};
+    .asks_for_eq6 = false,
+    .bends = true,
+    .table = "reflex"};
 
 std::optional<SceneFault> reflex_fault(const Specimen& specimen, const Scene& scene) {
   const ReflexSettings& reflex = scene.controller.reflex;

@@ -62,6 +62,8 @@ extern constinit const Law reflex_muscles_record =
                     [](const Specimen& specimen, const Scene& scene) {
                       std::optional<SceneFault> found = driven_fault(scene);
                       return found ? found : reflex_fault(specimen, scene);
-                    }});
+                    },
+                .bends = true,
+                .table = "reflex"});
 
 }  // namespace hagfish

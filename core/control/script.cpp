@@ -21,18 +21,14 @@ Eigen::Vector3d tangent(const std::vector<Waypoint>& waypoints, std::size_t k) {
 }  // namespace
 
 double script_end(const ScriptSettings& script) {
-  if (script.kind == ScriptSettings::Kind::curvature) {
-    return script.curvature.time.back();
-  }
+  if (script.kind == ScriptSettings::Kind::curvature) return script.curvature.time.back();
   return script.waypoints.empty() ? 0 : script.waypoints.back().time;
 }
 
 Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
   const std::vector<Waypoint>& waypoints = script.waypoints;
   const auto [k, u] = place_among(waypoints, time, &Waypoint::time);
-  if (u == 0) {
-    return at(waypoints[k]);
-  }
+  if (u == 0) return at(waypoints[k]);
   const double span = waypoints[k + 1].time - waypoints[k].time;
   if (script.kind == ScriptSettings::Kind::force) {
     return (1 - u) * at(waypoints[k]) + u * at(waypoints[k + 1]);
@@ -47,9 +43,7 @@ Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
 TipForce script_force(const ScriptSettings& script, double time, const TimeSettings& step,
                       const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {
   using Kind = ScriptSettings::Kind;
-  if (script.kind == Kind::none || script.kind == Kind::curvature) {
-    return {};
-  }
+  if (script.kind == Kind::none || script.kind == Kind::curvature) return {};
   if (script.kind == Kind::force) {
     return {script_value(script, step.rule == TimeRule::euler ? time : time + step.reach()), 0};
   }
@@ -65,9 +59,7 @@ TipForce script_force(const ScriptSettings& script, double time, const TimeSetti
   }
   const Eigen::Vector3d expected = implicit.value - implicit.rate * velocity;
   const double size = expected.norm();
-  if (size <= script.largest_force) {
-    return implicit;
-  }
+  if (size <= script.largest_force) return implicit;
   return {script.largest_force / size * expected, 0};
 }
 

@@ -1,4 +1,4 @@
-#include "core/input/scene_base.hpp"
+#include "core/input/scene_parts.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -28,9 +28,7 @@ bool names_file(const std::string& base) {
 /// The source that `base` names, in the scene of `root` and `scene`.
 SceneSource find_base(const TableReader& root, const std::string& base, const SceneSource& scene,
                       const FileAccess* access) {
-  if (!scene.file || !names_file(base)) {
-    return builtin_base(root, base);
-  }
+  if (!scene.file || !names_file(base)) return builtin_base(root, base);
   try {
     return access->read(base, scene.file);
   } catch (const InputError& error) {

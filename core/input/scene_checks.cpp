@@ -1,4 +1,4 @@
-#include "core/input/scene_checks.hpp"
+#include "core/input/scene_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +44,7 @@ void check_start(const TableReader& root, const ResolvedScene& resolved) {
   if (!start.qdot.empty() && (!start.bend_rate.empty() || !start.spin.isZero(0))) {
     root.fail("start.qdot", "start.bend_rate or start.spin is also given; give only one");
   }
-  if (start.q.empty() && start.qdot.empty()) return;
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const Model& model = resolved.model;
   const auto check_length = [&](const std::string& key, const std::vector<double>& x, int length) {
     if (!x.empty() && static_cast<int>(x.size()) != length) {
       root.fail(key, "has " + std::to_string(x.size()) + " numbers; " +
@@ -153,8 +152,9 @@ void check_food(const TableReader& root, const Scene& scene) {
 /// No slit between two strands that follow each other in the scene is so narrow that a section
 /// could not get through with the area that is left of it at least: a stadium of width w has the
 /// share 1 - (1 - w/d)² of a circle's. Strands that touch leave no slit.
-void check_slits(const TableReader& root, const ResolvedScene& resolved, const Model& model,
+void check_slits(const TableReader& root, const ResolvedScene& resolved,
                  const std::vector<SplineSegment>& segments) {
+  const Model& model = resolved.model;
   const double thickest = 2 * std::ranges::max(model.bodies, {}, &Body::radius).radius;
   const double least = thickest * (1 - std::sqrt(1 - resolved.specimen.flesh.least_area));
   for (const SplineSegment& a : segments) {
@@ -189,10 +189,10 @@ void check_flesh(const TableReader& root, const ResolvedScene& resolved) {
 void check_obstacles(const TableReader& root, const ResolvedScene& resolved) {
   const Scene& scene = resolved.scene;
   if (scene.obstacles.empty()) return;
-  const Model model = make_hagfish(resolved.specimen, scene);
+  const Model& model = resolved.model;
   const Observation seen = observe(model, start_state(model, scene.start), scene);
   if (scene.flesh.present()) {
-    check_slits(root, resolved, model, seen.segments);
+    check_slits(root, resolved, seen.segments);
     return;
   }
   const auto check = [&](int obstacle, int body, double gap) {
@@ -273,11 +273,12 @@ void check_expectations(const TableReader& root, const Scene& scene) {
 
 }  // namespace
 
-void check_scene(const TableReader& root, const ResolvedScene& resolved) {
-  check_start(root, resolved);
+void check_scene(const TableReader& root, ResolvedScene& resolved) {
   check_passive(root, resolved);
-  check_active(root, resolved.scene);
   check_muscles(root, resolved);
+  resolved.model = make_hagfish(resolved.specimen, resolved.scene);
+  check_start(root, resolved);
+  check_active(root, resolved.scene);
   check_law(root, resolved);
   check_food(root, resolved.scene);
   check_flesh(root, resolved);

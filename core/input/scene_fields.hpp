@@ -1,5 +1,5 @@
-// The keys of scene and specimen files, once for the reader and the writer: `Io` is TableReader or
-// TomlWriter. Included by scene_text.cpp only.
+// The keys of scene and specimen files, once for all who visit them: `Io` is TableReader,
+// TomlWriter or FieldVisitor (experiments/common/idle_settings.cpp).
 #pragma once
 
 #include <array>
@@ -19,6 +19,22 @@
 #include "core/scene/specimen.hpp"
 
 namespace hagfish {
+
+struct ActingKey;
+/// When anything reads a field.
+struct Acts {
+  bool here = true;                 ///< whether anything does in this scene
+  std::string unless = {};          ///< the reason where nothing does
+  std::optional<Phase> until = {};  ///< the last phase that reads it
+
+  ActingKey operator()(std::string_view key) const;
+};
+
+/// The key of a field that does not act everywhere.
+struct ActingKey : std::string_view {
+  Acts acts;
+};
+inline ActingKey Acts::operator()(std::string_view key) const { return {key, *this}; }
 
 enum class WaypointUnit { unsaid, dyn, newton, cm, metre, body_length };
 
@@ -99,10 +115,12 @@ void model_fields(Io& io, ModelSettings& s) {
   io.template choice<PassiveSource>(
       "passive", s.passive,
       {{"scene", PassiveSource::scene}, {"specimen", PassiveSource::specimen}});
-  io.number("bending_stiffness", s.bending_stiffness, not_negative(cgs::rigidity));
-  io.number("bending_damping", s.bending_damping, not_negative(cgs::damping));
-  io.number("twist_stiffness", s.twist_stiffness, not_negative(cgs::rigidity));
-  io.number("twist_damping", s.twist_damping, not_negative(cgs::damping));
+  const Acts own{s.passive == PassiveSource::scene,
+                 "model.passive = \"specimen\": the animal's own values are used"};
+  io.number(own("bending_stiffness"), s.bending_stiffness, not_negative(cgs::rigidity));
+  io.number(own("bending_damping"), s.bending_damping, not_negative(cgs::damping));
+  io.number(own("twist_stiffness"), s.twist_stiffness, not_negative(cgs::rigidity));
+  io.number(own("twist_damping"), s.twist_damping, not_negative(cgs::damping));
   io.angle("largest_limit", s.largest_limit, inside(0, 90));
   io.number("limit_scale", s.limit_scale, positive());
   io.number("mass_ratio", s.mass_ratio, positive());
@@ -130,7 +148,7 @@ void start_fields(Io& io, StartSettings& s) {
   io.numbers("q", s.q, any_number());
   io.numbers("qdot", s.qdot, any_number());
   io.angle("noise", s.noise, not_negative());
-  io.integer("seed", s.seed, any_number());
+  io.integer(Acts{s.noise != 0, "start.noise_deg is 0"}("seed"), s.seed, any_number());
   io.choice("phase", s.phase, phases_from(Phase::form, false));
 }
 
@@ -142,7 +160,9 @@ void constraint_fields(Io& io, ConstraintSettings& s) {
   io.number("baumgarte", s.baumgarte, within(0, 1));
   io.number("baumgarte_speed", s.baumgarte_speed, positive(cgs::speed));
   io.number("tolerance", s.tolerance, not_negative(cgs::cm));
-  io.integer("corrections", s.corrections, within(0, 100));
+  const Acts speculative{s.activation == Activation::speculative,
+                         "constraints.activation = \"violated\" corrects no step"};
+  io.integer(speculative("corrections"), s.corrections, within(0, 100));
   io.number("stride", s.stride, at_least(1e-3, cgs::cm));  // finer, a path is cut for ever
 }
 
@@ -185,20 +205,28 @@ void script_fields(Io& io, ScriptFile& s) {
                             {"force", Kind::force},
                             {"position", Kind::position},
                             {"curvature", Kind::curvature}});
-  io.number("spring", s.settings.spring, not_negative(cgs::spring));
-  io.number("damper", s.settings.damper, not_negative(cgs::damper));
-  io.number("largest_force", s.settings.largest_force, not_negative(cgs::dyn));
-  io.number("noise", s.settings.noise, not_negative(waypoint_unit(s.settings.kind)));
-  io.integer("noise_seed", s.settings.noise_seed, any_number());
+  const Kind kind = s.settings.kind;
+  const Acts script{kind != Kind::none, "script.kind is \"none\": there is no script"};
+  const Acts curvature{kind == Kind::curvature, "only script.kind = \"curvature\" reads it"};
+  const Acts position{kind == Kind::position, "only script.kind = \"position\" reads it"};
+  const Acts knots = kind == Kind::curvature
+                         ? Acts{false, "script.kind = \"curvature\" reads script.program"}
+                         : script;
+  io.number(position("spring"), s.settings.spring, not_negative(cgs::spring));
+  io.number(position("damper"), s.settings.damper, not_negative(cgs::damper));
+  io.number(position("largest_force"), s.settings.largest_force, not_negative(cgs::dyn));
+  io.number(script("noise"), s.settings.noise, not_negative(waypoint_unit(kind)));
+  io.integer(Acts{s.settings.noise != 0, "script.noise is 0"}("noise_seed"), s.settings.noise_seed,
+             any_number());
   io.template choice<WaypointUnit>("unit", s.unit,
                                    {{"dyn", WaypointUnit::dyn},
                                     {"N", WaypointUnit::newton},
                                     {"cm", WaypointUnit::cm},
                                     {"m", WaypointUnit::metre},
                                     {"L", WaypointUnit::body_length}});
-  io.rows("knots", "knot", "t, x, y, z", s.rows);
-  io.string("program", s.program);
-  io.table("curvature", [&s](Io& table) {
+  io.rows(knots("knots"), "knot", "t, x, y, z", s.rows);
+  io.string(curvature("program"), s.program);
+  io.table(curvature("curvature"), [&s](Io& table) {
     table.numbers("times", s.curvature.times, not_negative());
     table.numbers("stations", s.curvature.stations, within(0, 1));
     table.numbers("bend_y", s.curvature.bend_y, any_number());
@@ -208,10 +236,14 @@ void script_fields(Io& io, ScriptFile& s) {
 }
 
 template <class Io>
-void active_fields(Io& io, ActiveSettings& s) {
-  io.number("stiffness", s.stiffness, not_negative(cgs::rigidity));
-  io.number("tone_time", s.tone_time, not_negative());
-  io.number("relax_time", s.relax_time, not_negative());
+void active_fields(Io& io, Scene& scene) {
+  ActiveSettings& s = scene.active;
+  const Acts pulls{
+      scene.script.kind == ScriptSettings::Kind::curvature || law_of(scene).bends,
+      "no torque is active: script.kind is not \"curvature\", and controller.law asks for none"};
+  io.number(pulls("stiffness"), s.stiffness, not_negative(cgs::rigidity));
+  io.number(pulls("tone_time"), s.tone_time, not_negative());
+  io.number(pulls("relax_time"), s.relax_time, not_negative());
   io.number("capacity", s.capacity, not_negative(cgs::dyn_cm));
   io.boolean("bounds_laws", s.bounds_laws);
 }
@@ -249,66 +281,88 @@ void reflex_fields(Io& io, ReflexSettings& s) {
   io.length("reach", s.reach, not_negative());
   io.number("delay", s.delay, not_negative());
   io.number("noise", s.noise, within(0, 10));
-  io.integer("seed", s.seed, any_number());
+  io.integer(Acts{s.noise != 0, "controller.reflex.noise is 0"}("seed"), s.seed, any_number());
 }
 
 template <class Io>
-void muscle_fields(Io& io, MuscleSettings& s) {
+void muscle_fields(Io& io, Scene& scene) {
+  MuscleSettings& s = scene.muscle;
   io.boolean("present", s.present);
-  io.number("activation_time", s.activation_time, not_negative());
+  const Acts driven{law_of(scene).drives_muscles, "controller.law drives no muscles"};
+  io.number(driven("activation_time"), s.activation_time, not_negative());
 }
 
 template <class Io>
-void controller_fields(Io& io, ControllerSettings& s) {
+void controller_fields(Io& io, Scene& scene) {
+  ControllerSettings& s = scene.controller;
   Choices<std::string> names;
   for (const Law* law : laws()) names.emplace_back(law->name, law->name);
   io.choice("law", s.law, names);
-  io.template choice<Eq6Point>("eq6_at", s.eq6_at,
+  const Law& law = law_of(scene);
+  const Acts eq6{law.asks_for_eq6, "controller.law asks for no speeds of Eq. 6"};
+  const Acts held{scene.clamp_head, "clamp_head is false: the head is never held"};
+  const Acts forming{.until = Phase::form}, tightening{.until = Phase::tighten};
+  io.template choice<Eq6Point>(eq6("eq6_at"), s.eq6_at,
                                {{"skin", Eq6Point::skin}, {"centreline", Eq6Point::centreline}});
-  io.template choice<Eq6Slip>("eq6_slip", s.eq6_slip,
+  io.template choice<Eq6Slip>(eq6("eq6_slip"), s.eq6_slip,
                               {{"paper", Eq6Slip::paper}, {"shape", Eq6Slip::shape}});
-  io.number("cap", s.cap, positive(cgs::dyn));
+  io.number(eq6("cap"), s.cap, positive(cgs::dyn));
   io.number("contact_gap", s.contact_gap, not_negative(cgs::cm));
   io.number("contact_patch", s.contact_patch, not_negative(cgs::cm));
-  io.length("tail_through", s.tail_through, not_negative());
-  io.number("tighten_from", s.tighten_from, not_negative());
-  io.length("tight_span", s.tight_span, positive());
-  io.number("tight_hold", s.tight_hold, not_negative());
-  io.number("tighten_time", s.tighten_time, not_negative());
+  io.length(forming("tail_through"), s.tail_through, not_negative());
+  io.number(forming("tighten_from"), s.tighten_from, not_negative());
+  io.length(tightening("tight_span"), s.tight_span, positive());
+  io.number(tightening("tight_hold"), s.tight_hold, not_negative());
+  io.number(tightening("tighten_time"), s.tighten_time, not_negative());
   io.length("release_at", s.release_at, positive());
   io.number("untied_for", s.untied_for, not_negative());
   io.number("free_time", s.free_time, not_negative());
   io.template choice<BodyEnd>("leave_by", s.leave_by,
                               {{"head", BodyEnd::head}, {"tail", BodyEnd::tail}});
-  io.choice("free_from", s.free_from, phases_from(Phase::tighten, false));
-  const auto speeds = [&io](std::string_view key, ThigmotaxisSpeeds& pair) {
-    io.table(key, [&pair](Io& table) {
+  io.choice(held("free_from"), s.free_from, phases_from(Phase::tighten, false));
+  const auto speeds = [&](std::string_view key, Phase until, ThigmotaxisSpeeds& pair) {
+    const Acts back{s.leave_by == BodyEnd::tail,
+                    "controller.leave_by is \"head\": there is no slide to the tail"};
+    Acts acts = key.starts_with("reverse") && !back.here ? back : eq6;
+    acts.until = until;
+    io.table(acts(key), [&pair](Io& table) {
       table.number("a", pair.a, any_number(cgs::speed));
       table.number("b", pair.b, any_number(cgs::speed));
     });
   };
-  speeds("tighten_head", s.tighten_head);
-  speeds("tighten_tail", s.tighten_tail);
-  speeds("slide_head", s.slide_head);
-  speeds("slide_tail", s.slide_tail);
-  speeds("reverse_head", s.reverse_head);
-  speeds("reverse_tail", s.reverse_tail);
-  io.table("knot_speed", [&s](Io& table) {
+  speeds("tighten_head", Phase::tighten, s.tighten_head);
+  speeds("tighten_tail", Phase::tighten, s.tighten_tail);
+  speeds("slide_head", Phase::release, s.slide_head);
+  speeds("slide_tail", Phase::release, s.slide_tail);
+  speeds("reverse_head", Phase::release, s.reverse_head);
+  speeds("reverse_tail", Phase::release, s.reverse_tail);
+  const auto of_law = [&law](std::string_view key) {
+    std::string readers;
+    for (const Law* one : laws()) {
+      if (one->table == key) {
+        readers += (readers.empty() ? "\"" : " or \"") + std::string(one->name) + '"';
+      }
+    }
+    return Acts{law.table == key, "only controller.law = " + readers + " reads it"}(key);
+  };
+  io.table(of_law("knot_speed"), [&s](Io& table) {
     table.number("target", s.knot_speed.target, not_negative(cgs::speed));
     table.number("gain", s.knot_speed.gain, not_negative());
     table.number("filter", s.knot_speed.filter, not_negative());
     table.number("most", s.knot_speed.most, positive());
   });
-  io.table("reduced_basis", [&s](Io& table) { reduced_basis_fields(table, s.reduced_basis); });
-  io.table("reflex", [&s](Io& table) { reflex_fields(table, s.reflex); });
+  io.table(of_law("reduced_basis"),
+           [&s](Io& table) { reduced_basis_fields(table, s.reduced_basis); });
+  io.table(of_law("reflex"), [&s](Io& table) { reflex_fields(table, s.reflex); });
 }
 
 template <class Io>
 void food_fields(Io& io, FoodSettings& s) {
   io.number("hold", s.hold, not_negative());
-  io.number("strength", s.strength, positive());
-  io.number("average", s.average, positive());
-  io.table("cap", [&s](Io& table) {
+  const Acts food{s.hold != 0, "food.hold is 0: there is no food"};
+  io.number(food("strength"), s.strength, positive());
+  io.number(food("average"), s.average, positive());
+  io.table(food("cap"), [&s](Io& table) {
     table.number("from", s.cap.from, not_negative(cgs::dyn));
     table.number("to", s.cap.to, not_negative(cgs::dyn));
     table.number("time", s.cap.time, not_negative());
@@ -329,9 +383,10 @@ void time_fields(Io& io, TimeSettings& s) {
   io.template choice<FreeMomentum>("momentum", s.momentum,
                                    {{"kept", FreeMomentum::kept}, {"rule", FreeMomentum::rule}});
   io.number("step", s.step, positive());
-  io.number("settled", s.settled, positive());
-  io.integer("passes", s.passes, within(1, 1000));
-  io.number("ring_damping", s.ring_damping, not_negative());
+  const Acts midpoint{s.rule == TimeRule::midpoint, "only time.rule = \"midpoint\" reads it"};
+  io.number(midpoint("settled"), s.settled, positive());
+  io.integer(midpoint("passes"), s.passes, within(1, 1000));
+  io.number(midpoint("ring_damping"), s.ring_damping, not_negative());
   io.number("frame_interval", s.frame_interval, positive());
   io.number("duration", s.duration, positive());
   io.choice("until", s.until, phases_from(Phase::form, true));
@@ -352,7 +407,7 @@ void guard_fields(Io& io, GuardSettings& s) {
 }
 
 template <class Io>
-void expect_fields(Io& io, ExpectSettings& s) {
+void expect_fields(Io& io, const Acts& flesh, ExpectSettings& s) {
   io.string("knot", s.knot);
   const auto text = [](const RunTime& time) { return run_time_text(time); };
   // What is no time becomes none, which the reader refuses.
@@ -376,8 +431,9 @@ void expect_fields(Io& io, ExpectSettings& s) {
   io.number("pull_drift", s.pull_drift, not_negative());
   io.number("pull_balance", s.pull_balance, not_negative());
   io.number("speed_share", s.speed_share, within(0, 1));
-  io.number("penetration", s.penetration, not_negative(cgs::cm));
-  io.number("overlap", s.overlap, not_negative(cgs::cm));
+  const Acts hard{!flesh.here, "flesh may overlap: expect.overlap bounds it"};
+  io.number(hard("penetration"), s.penetration, not_negative(cgs::cm));
+  io.number(flesh("overlap"), s.overlap, not_negative(cgs::cm));
   io.number("skin_fold", s.skin_fold, not_negative());
   io.angle("limit_violation", s.limit_violation, not_negative());
   io.number("head_drift", s.head_drift, not_negative(cgs::cm));
@@ -405,26 +461,29 @@ void scene_fields(Io& io, Scene& s, ScriptFile& script, std::vector<ObstacleFile
     t.number("margin", s.contact.margin, not_negative(cgs::cm));
     t.length("least_arc", s.contact.least_arc, positive());
   });
+  const auto flesh = [&s] {
+    return Acts{s.flesh.present(), "flesh.stiffness is 0: contact is hard"};
+  };
   io.table("flesh", [&](Io& t) {
     t.number("stiffness", s.flesh.stiffness, not_negative(cgs::stress));
-    t.number("relaxation", s.flesh.relaxation, not_negative());
-    t.number("spacing", s.flesh.spacing, not_negative(cgs::cm));
+    t.number(flesh()("relaxation"), s.flesh.relaxation, not_negative());
+    t.number(flesh()("spacing"), s.flesh.spacing, not_negative(cgs::cm));
   });
   io.table("wall", [&](Io& t) {
     t.boolean("present", s.wall.present);
-    t.length("neck", s.wall.neck, not_negative());
+    t.length(Acts{s.wall.present, "wall.present is false"}("neck"), s.wall.neck, not_negative());
   });
   io.tables("obstacle", obstacles, [](Io& t, ObstacleFile& one) { obstacle_fields(t, one); });
   io.table("start", [&](Io& t) { start_fields(t, s.start); });
-  io.table("script", [&](Io& t) { script_fields(t, script); });
-  io.table("active", [&](Io& t) { active_fields(t, s.active); });
-  io.table("muscle", [&](Io& t) { muscle_fields(t, s.muscle); });
-  io.table("controller", [&](Io& t) { controller_fields(t, s.controller); });
-  io.table("food", [&](Io& t) { food_fields(t, s.food); });
+  io.table(Acts{.until = Phase::form}("script"), [&](Io& t) { script_fields(t, script); });
+  io.table("active", [&](Io& t) { active_fields(t, s); });
+  io.table("muscle", [&](Io& t) { muscle_fields(t, s); });
+  io.table("controller", [&](Io& t) { controller_fields(t, s); });
+  io.table(Acts{.until = Phase::pull}("food"), [&](Io& t) { food_fields(t, s.food); });
   io.table("knot", [&](Io& t) { knot_fields(t, s.knot); });
   io.table("time", [&](Io& t) { time_fields(t, s.time); });
   io.table("guard", [&](Io& t) { guard_fields(t, s.guard); });
-  io.table("expect", [&](Io& t) { expect_fields(t, s.expect); });
+  io.table("expect", [&](Io& t) { expect_fields(t, flesh(), s.expect); });
 }
 
 }  // namespace hagfish

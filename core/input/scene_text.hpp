@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "core/chain/model.hpp"
 #include "core/input/input_error.hpp"
 #include "core/scene/settings.hpp"
 #include "core/scene/specimen.hpp"
@@ -26,6 +27,7 @@ namespace hagfish {
 struct ResolvedScene {
   Scene scene;
   Specimen specimen;
+  Model model;  ///< the chain that they make (make_hagfish), as they were read
 };
 
 /// Texts in place of files, by the names that a scene has for them.

@@ -99,9 +99,7 @@ EdgeBoxes boxes_of_edges(const Eigen::Matrix3Xd& view) {
   const int count = static_cast<int>(view.cols());
   const int batches = (count + batch - 1) / batch;
   EdgeBoxes boxes{empty_rectangles(count), empty_rectangles(batches)};
-  for (int edge = 0; edge < count; ++edge) {
-    set_box(view, edge, boxes.edges);
-  }
+  for (int edge = 0; edge < count; ++edge) set_box(view, edge, boxes.edges);
   for (int k = 0; k < batches; ++k) {
     boxes.batches.left[k] = boxes.edges.left.segment<batch>(batch * k).minCoeff();
     boxes.batches.right[k] = boxes.edges.right.segment<batch>(batch * k).maxCoeff();
@@ -206,9 +204,7 @@ Diagram SeenArc::closed(const Eigen::Vector3d& out) {
   view_.col(count) = view_.col(count - 1) + way;
   view_.col(count + 1) = view_.col(0) + way;
   Diagram diagram = own_;
-  for (int edge = count - 1; edge <= count + 1; ++edge) {
-    set_box(view_, edge, boxes_.edges);
-  }
+  for (int edge = count - 1; edge <= count + 1; ++edge) set_box(view_, edge, boxes_.edges);
   // The edges at the ends of the arc share a vertex with it.
   cross_edges(view_, boxes_, count - 1, 0, count - 2, tolerance_, diagram);
   cross_edges(view_, boxes_, count, 0, count - 1, tolerance_, diagram);

@@ -1,4 +1,4 @@
-#include "core/log/frame_rows.hpp"
+#include "core/log/log_frame.hpp"
 
 #include <limits>
 #include <string>

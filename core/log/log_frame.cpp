@@ -5,7 +5,7 @@
 
 #include "core/control/laws.hpp"
 #include "core/log/ledger_columns.hpp"
-#include "core/log/means/pull_figures.hpp"
+#include "core/log/means/log_means.hpp"
 
 namespace hagfish {
 namespace {
@@ -47,9 +47,7 @@ std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double
   const TouchingEnds& ends = frame.record.controller.ends;
   for (std::size_t k = 0; k < 2; ++k) {
     const std::optional<Contact>& contact = k == 0 ? ends.first : ends.last;
-    if (contact) {
-      pair[k] = *contact.*segment + *contact.*t;
-    }
+    if (contact) pair[k] = *contact.*segment + *contact.*t;
   }
   return pair;
 }
@@ -177,21 +175,18 @@ void declare_thigmotaxis(LogTable<Frame>& t) {
   t.numbers("/thigmotaxis/spline_b", {both_contacts},
             {"1", "spline parameter on the strand b" + parameter},
             [](const Frame& f) { return followed(f, &Contact::segment_b, &Contact::t_b); });
-  t.numbers(
-      "/thigmotaxis/command", {strands},
-      {"cm/s", strand_order + "right side of Eq. 6, nan where no row"},
-      [](const Frame& f) -> const auto& { return f.thigmotaxis.command; });
-  t.numbers(
-      "/thigmotaxis/lambda", {strands}, {"dyn", strand_order + "multiplier over h, 0 where no row"},
-      [](const Frame& f) -> const auto& { return f.thigmotaxis.lambda; });
-  t.numbers(
-      "/thigmotaxis/speed", {strands},
-      {"cm/s", strand_order + "left side of Eq. 6, nan where no row"},
-      [](const Frame& f) -> const auto& { return f.thigmotaxis.speed; });
-  t.numbers(
-      "/thigmotaxis/slack", {strands},
-      {"cm/s", strand_order + "shortfall of the command, nan where no row"},
-      [](const Frame& f) -> const auto& { return f.thigmotaxis.slack; });
+  const auto row = [&t](const char* name, const char* unit, const std::string& description,
+                        std::array<double, 4> ThigmotaxisRows::*member) {
+    t.numbers(
+        std::string("/thigmotaxis/") + name, {strands},
+        {unit, strand_order + description}, [member](const Frame& f) -> const auto& {
+          return f.thigmotaxis.*member;
+        });
+  };
+  row("command", "cm/s", "right side of Eq. 6, nan where no row", &ThigmotaxisRows::command);
+  row("lambda", "dyn", "multiplier over h, 0 where no row", &ThigmotaxisRows::lambda);
+  row("speed", "cm/s", "left side of Eq. 6, nan where no row", &ThigmotaxisRows::speed);
+  row("slack", "cm/s", "shortfall of the command, nan where no row", &ThigmotaxisRows::slack);
   t.number("/thigmotaxis/cap", {"dyn", "largest multiplier over h of a row; nan where no row"},
            [](const Frame& f) { return f.thigmotaxis.cap; });
 }

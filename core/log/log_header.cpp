@@ -41,9 +41,7 @@ void write_header(const LogHeader& header, Hdf5Writer& h5) {
   h5.root_attribute("status", "running");
   h5.root_attribute("warnings", "");
   if (!header.simulator.empty()) h5.root_attribute("simulator", header.simulator);
-  if (!header.branched_from.empty()) {
-    h5.root_attribute("branched_from", header.branched_from);
-  }
+  if (!header.branched_from.empty()) h5.root_attribute("branched_from", header.branched_from);
   if (!header.past.empty()) {
     std::vector<std::string> scenes;
     Eigen::VectorXd ends(static_cast<Eigen::Index>(header.past.size()));
@@ -57,9 +55,7 @@ void write_header(const LogHeader& header, Hdf5Writer& h5) {
   }
   h5.group("/mjcf");
   if (header.level == LogLevel::summary) return;  // without q there is nothing to replay
-  for (const auto& [name, text] : header.mjcf) {
-    h5.text("/mjcf/" + name, text);
-  }
+  for (const auto& [name, text] : header.mjcf) h5.text("/mjcf/" + name, text);
 }
 
 Eigen::VectorXd body_arcs(const Model& model) {

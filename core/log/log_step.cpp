@@ -1,4 +1,4 @@
-#include "core/log/log_step.hpp"
+#include "core/log/log_frame.hpp"
 
 #include <array>
 #include <string>

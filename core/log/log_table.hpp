@@ -75,9 +75,7 @@ class LogTable {
     if (series_.empty()) return;
     const hsize_t rows = series_.front()->rows();
     try {
-      for (const auto& append_to : appenders_) {
-        append_to(source);
-      }
+      for (const auto& append_to : appenders_) append_to(source);
     } catch (...) {
       for (const auto& series : series_) series->cut(rows);
       throw;

@@ -11,10 +11,7 @@
 
 #include "core/chain/skin_fold.hpp"
 #include "core/log/end_of_run.hpp"
-#include "core/log/frame_rows.hpp"
-#include "core/log/hdf5/disk_room.hpp"
 #include "core/log/log_frame.hpp"
-#include "core/log/log_step.hpp"
 
 namespace hagfish {
 namespace {

@@ -112,9 +112,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   const Eigen::VectorXd& u = step.qdot;
   ledger.work_tip += t * step.tip.dot(step.centre_velocity.col(in.control.tip.on(model)));
   ledger.work_active += t * step.active_torque.dot(u);
-  for (const RowKind kind : row_kinds) {
-    ledger.work[kind] += t * step.force[kind].dot(u);
-  }
+  for (const RowKind kind : row_kinds) ledger.work[kind] += t * step.force[kind].dot(u);
 
   double damped = 0;   // u'D x
   double stretch = 0;  // u'K (½ t u - r x - β (2 x - v))

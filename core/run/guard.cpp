@@ -18,10 +18,12 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// What happened and what to do about it. If the run continues, also whether it can be used.
-std::string told(GuardAction action, const std::string& what, const std::string& use,
-                 const std::string& remedy) {
-  return action == GuardAction::stop ? what + "; " + remedy : what + ". " + use + "; " + remedy;
+/// Reports what happened and what to do about it. If the run continues, also whether it can be
+/// used.
+Status tell(Outcome outcome, GuardAction action, Watch& watch, std::vector<std::string>& warnings,
+            const std::string& what, const std::string& use, const std::string& remedy) {
+  const std::string message = action == GuardAction::stop ? what + "; " : what + ". " + use + "; ";
+  return report(outcome, message + remedy, action, watch, warnings);
 }
 
 /// Names the bodies or obstacle at the deepest overlap of a state.
@@ -80,9 +82,7 @@ std::vector<const Row*> opponents(const Model& model, const Kinematics& kin,
   const Eigen::MatrixXd A = whole_dual(model, kin, step.system, step.rows).A;
   std::vector<std::pair<double, Eigen::Index>> effect;  // on the row's velocity
   for (Eigen::Index j = 0; j < A.rows(); ++j) {
-    if (j != i && A(i, j) * step.lambda[j] < 0) {
-      effect.emplace_back(A(i, j) * step.lambda[j], j);
-    }
+    if (j != i && A(i, j) * step.lambda[j] < 0) effect.emplace_back(A(i, j) * step.lambda[j], j);
   }
   std::sort(effect.begin(), effect.end());
   std::vector<const Row*> rows;
@@ -116,9 +116,7 @@ std::string cure_of_cap(const Row& row, const std::vector<const Row*>& against) 
 
 Status report(Outcome outcome, const std::string& message, GuardAction action, Watch& watch,
               std::vector<std::string>& warnings) {
-  if (action == GuardAction::stop) {
-    return {outcome, message};
-  }
+  if (action == GuardAction::stop) return {outcome, message};
   if (!watch.has_warned(outcome)) {
     watch.warned.set(static_cast<std::size_t>(outcome));
     warnings.push_back(message);
@@ -159,8 +157,8 @@ Status guard_state(const Model& model, const ObservedState& after, double crossi
   }
   Status status;
   const auto look = [&](Outcome outcome, const std::string& what, const std::string& remedy) {
-    status = report(outcome, told(guard.action, what, "Do not use forces after this time", remedy),
-                    guard.action, watch, warnings);
+    status = tell(outcome, guard.action, watch, warnings, what, "Do not use forces after this time",
+                  remedy);
   };
   const char* finer = "try a smaller time.step or more constraints.corrections";
   if (seen.penetration > guard.penetration) {
@@ -221,11 +219,9 @@ Status guard_energy(const StepInput& in, double passing, ObservedState& after, E
     }
     const bool stop = guard.energy_action == EnergyAction::stop;
     const GuardAction action = stop ? GuardAction::stop : GuardAction::warn;
-    status =
-        report(Outcome::energy_gain,
-               told(action, what, "Do not use speeds around this time; earlier speeds can be used",
-                    "try a smaller time.step, or more drag or damping"),
-               action, watch, warnings);
+    status = tell(Outcome::energy_gain, action, watch, warnings, what,
+                  "Do not use speeds around this time; earlier speeds can be used",
+                  "try a smaller time.step, or more drag or damping");
   }
   ledger.largest = std::max(ledger.largest, kinetic + ledger.elastic);
   return status;
@@ -245,18 +241,13 @@ void guard_momentum(const StepInput& in, double passing, const MomentumLedger& b
   const double arm = in.model.length() / std::sqrt(12.0);
   if (std::max(watch.made.linear.norm(), watch.made.angular.norm() / arm) > allowed) {
     const bool kept = in.scene.time.momentum == FreeMomentum::kept;
-    std::ignore = report(
-        Outcome::momentum_gain,
-        told(
-            GuardAction::warn,
-            fmt::format(
-                "numerical errors pushed the free body by {:.3g} dyn s and turned it by {:.3g} dyn "
-                "cm s, over {:g} of the most that it can have",
-                watch.made.linear.norm(), watch.made.angular.norm(), momentum_gain),
-            "The shape of the body can be used, but not its path through the water",
-            kept ? "try a smaller time.step"
-                 : "try time.momentum = \"kept\" or a smaller time.step"),
-        GuardAction::warn, watch, warnings);
+    std::ignore = tell(
+        Outcome::momentum_gain, GuardAction::warn, watch, warnings,
+        fmt::format("numerical errors pushed the free body by {:.3g} dyn s and turned it by {:.3g} "
+                    "dyn cm s, over {:g} of the most that it can have",
+                    watch.made.linear.norm(), watch.made.angular.norm(), momentum_gain),
+        "The shape of the body can be used, but not its path through the water",
+        kept ? "try a smaller time.step" : "try time.momentum = \"kept\" or a smaller time.step");
   }
 }
 
@@ -274,9 +265,7 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
     return row == step.rows.end() || !at_cap(*row);
   });
   for (const Row& row : step.rows) {
-    if (!at_cap(row)) {
-      continue;
-    }
+    if (!at_cap(row)) continue;
     const auto one = std::ranges::find(capped, row.id, &CapWatch::id);
     if (one == capped.end()) {
       capped.push_back({row.id, time});
@@ -290,16 +279,13 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
       for (const Row* other : against) {
         names += (names.empty() ? "" : "; ") + row_name(model, *other);
       }
-      std::ignore = report(
-          Outcome::capped,
-          told(
-              GuardAction::warn,
-              fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and is still {:.3g} "
-                          "cm/s too slow, held back most by {}",
-                          row_name(model, row), scene.controller.cap, scene.guard.capped_time,
-                          -step.excess[i], names.empty() ? "no row" : names),
-              "Paths can be used, but not forces at the cap", cure_of_cap(row, against)),
-          GuardAction::warn, watch, warnings);
+      std::ignore = tell(
+          Outcome::capped, GuardAction::warn, watch, warnings,
+          fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and is still {:.3g} "
+                      "cm/s too slow, held back most by {}",
+                      row_name(model, row), scene.controller.cap, scene.guard.capped_time,
+                      -step.excess[i], names.empty() ? "no row" : names),
+          "Paths can be used, but not forces at the cap", cure_of_cap(row, against));
     }
   }
 }
@@ -314,31 +300,27 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
         (ranges.row(0) - angles).cwiseMax(angles - ranges.row(1)).cwiseMax(0.0);
     Eigen::Index k = 0;
     if (past.maxCoeff(&k) > scene.guard.limit_violation) {
-      std::ignore = report(
-          Outcome::overbent,
-          told(GuardAction::warn,
+      std::ignore =
+          tell(Outcome::overbent, GuardAction::warn, watch, warnings,
                fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s, past its "
                            "limits of {:.3g} and {:.3g} deg",
                            dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
                            time + scene.time.reach(), ranges(0, k) / degree, ranges(1, k) / degree),
                "The run can be used, except torques of muscles that work against a limit",
-               "try a program within the limits or a larger model.limit_scale"),
-          GuardAction::warn, watch, warnings);
+               "try a program within the limits or a larger model.limit_scale");
     }
   }
   const int saturated =
       control.active.saturated >= 0 ? control.active.saturated : control.torque.saturated;
   if (saturated >= 0 && !watch.has_warned(Outcome::saturated)) {
-    std::ignore = report(
-        Outcome::saturated,
-        told(GuardAction::warn,
+    std::ignore =
+        tell(Outcome::saturated, GuardAction::warn, watch, warnings,
              fmt::format("{} needs more torque than active.capacity = {:g} dyn cm at {:.2f} s",
                          dof_name(model, saturated), scene.active.capacity, time),
              "The run can be used, as one of an animal too weak for this movement",
              control.active.saturated >= 0
                  ? "try a slower program, a softer body or more capacity"
-                 : "try a law that asks for less, or active.bounds_laws = false"),
-        GuardAction::warn, watch, warnings);
+                 : "try a law that asks for less, or active.bounds_laws = false");
   }
 }
 

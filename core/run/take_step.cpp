@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -76,10 +77,10 @@ void move(const Attempt& step, double t) {
 }
 
 /// Moves along the step's path to its end. If the path overlaps or leaves a cone and `correct` is
-/// set, adds rows for this and returns true: the step must be solved again.
-bool look_along_path(const Attempt& step, bool correct) {
+/// set, returns rows for this, with which the step must be solved again.
+std::vector<PathRow> look_along_path(const Attempt& step, bool correct) {
   const auto& [in, sim, record] = step;
-  StepSolution& solution = record.solution;
+  const StepSolution& solution = record.solution;
   ObservedState& there = record.after;
   const int count = step.samples();
   there.state.qdot = solution.next;
@@ -87,21 +88,15 @@ bool look_along_path(const Attempt& step, bool correct) {
   for (int i = 1; i <= count; ++i) {
     const double t = i < count ? step.h() * i / count : step.h();
     move(step, t);
-    if (i < count) {
-      record.crossing = std::max(record.crossing, there.observation.penetration);
-    }
-    if (!correct) {
-      continue;
-    }
-    bool missed = add_missed_rows(in, step.place(), there.observation, t, solution);
+    if (i < count) record.crossing = std::max(record.crossing, there.observation.penetration);
+    if (!correct) continue;
+    std::vector<PathRow> missed = missed_rows(in, step.place(), there.observation, t, solution);
     if (i == count) {
-      missed = add_missed_bends(in, there.state.q, solution) || missed;
+      std::ranges::copy(missed_bends(in, there.state.q, solution), std::back_inserter(missed));
     }
-    if (missed) {
-      return true;
-    }
+    if (!missed.empty()) return missed;
   }
-  return false;
+  return {};
 }
 
 /// Solves the step, and solves it again while its path shows missing rows, up to
@@ -114,10 +109,10 @@ void solve_along_path(const Attempt& step) {
   Status status = sim.solver.begin(in, solution);
   for (int k = 0; status.ok(); ++k) {
     status = guard_speed(solution.centre_velocity, step.observer(), in.scene);
-    if (!status.ok() || !look_along_path(step, k < corrections)) {
-      break;
-    }
-    status = sim.solver.resume(in, solution);
+    if (!status.ok()) break;
+    const std::vector<PathRow> missed = look_along_path(step, k < corrections);
+    if (missed.empty()) break;
+    status = sim.solver.resume(in, missed, solution);
     if (!status.ok() && status.outcome != Outcome::stopped) {
       corrections = 0;
       status = sim.solver.begin(in, solution);
@@ -147,7 +142,7 @@ double end_where_strands_meet(const Attempt& step) {
   const double before = in.observation.penetration;
   const double allowed = std::max(before, way_tolerance * stride);
   // The largest overlap that corrections leave, and half of an earlier overlap. On a long path,
-  // whose rows ask for too little (add_missed_rows), there may be more.
+  // whose rows ask for too little (missed_rows), there may be more.
   const double left = samples > 1 ? std::max(before, 3 * in.scene.constraints.tolerance) : allowed;
   if (in.scene.flesh.present() || !looks_ahead(in.scene) ||
       (record.crossing <= allowed && penetration <= left)) {

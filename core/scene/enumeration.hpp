@@ -25,9 +25,9 @@ constexpr bool lists_each_once(const std::array<Entry, n>& table) {
   return true;
 }
 
-/// Place of a value in a table that has it.
+/// Index of a value in a table that has it.
 template <class Entry, std::size_t n, class E>
-constexpr std::size_t place_in(const std::array<Entry, n>& table, E value) {
+constexpr std::size_t index_in(const std::array<Entry, n>& table, E value) {
   std::size_t k = 0;
   while (table[k].value != value) ++k;
   return k;

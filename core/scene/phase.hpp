@@ -28,10 +28,10 @@ inline constexpr TableOf<PhaseEntry> phase_table{{{Phase::form, "form", "knot fo
 static_assert(lists_each_once(phase_table));
 
 /// Place of a phase in time.
-constexpr int phase_order(Phase phase) { return static_cast<int>(place_in(phase_table, phase)); }
+constexpr int phase_order(Phase phase) { return static_cast<int>(index_in(phase_table, phase)); }
 
 constexpr const char* phase_name(Phase phase) {
-  return phase_table[place_in(phase_table, phase)].name;
+  return phase_table[index_in(phase_table, phase)].name;
 }
 
 /// The knot must stay tied: from tightening to release.

@@ -19,6 +19,7 @@ class EulerRule : public StepRule {
     return status;
   }
   void end(const StepInput& /*in*/, WarmStart& /*warm*/, StepSolution& step) override {
+    step.lambda = step.multipliers;
     step.mean_velocity = step.qdot;
     step.mean_twist = step.twist;
     step.mean_centre_velocity = step.centre_velocity;

@@ -2,27 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/contact/obstacles.hpp"
 #include "core/step/rows/contact_rows.hpp"
 #include "core/step/rows/joint_rows.hpp"
-#include "core/step/rows/row_selection.hpp"
 
 namespace hagfish {
 namespace {
-
-/// Adds `row`, or replaces the row with the same id in place, so that it keeps its multiplier.
-void put(PathRow row, StepSolution& step) {
-  const auto id = [](const PathRow& other) { return other.row.id; };
-  put_row(row.row, step.rows);
-  const auto place = std::ranges::find(step.path_rows, row.row.id, id);
-  if (place == step.path_rows.end()) {
-    step.path_rows.push_back(std::move(row));
-  } else {
-    *place = std::move(row);
-  }
-}
 
 /// The number of rows that the path has given the contact with this id in this step.
 int rows_of_contact(const RowId& id, const StepSolution& step) {
@@ -40,29 +26,26 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d&
   return std::max(1, static_cast<int>(std::ceil(longest / stride)));
 }
 
-bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observation& there,
-                     double t, StepSolution& step) {
-  if (in.scene.flesh.present()) return false;
+std::vector<PathRow> missed_rows(const StepInput& in, const StepPlace& place,
+                                 const Observation& there, double t, const StepSolution& step) {
+  std::vector<PathRow> missed;
+  if (in.scene.flesh.present()) return missed;
   const ConstraintSettings& settings = in.scene.constraints;
   const Observation& now = in.observation;
   const double h = in.scene.time.step;
   // On the path strands must only not pass through each other. The end is the start of the next
   // step.
   const double tolerance = t < h ? way_tolerance * settings.stride : settings.tolerance;
-  bool any = false;
   const auto check = [&](double gap_now, double gap_there, const auto& make_row) {
     const double before = std::min(0.0, gap_now);
     const double goal =
         before + std::min(-settings.baumgarte * before, h * settings.baumgarte_speed);
     if (gap_there < goal - tolerance) {
-      PathRow path_row = make_row();
-      Row& row = path_row.row;
-      const double missed = gap_there - gap_now - t * row_velocity(row, step.bodies(), step.qdot);
+      Row& row = missed.emplace_back(make_row()).row;
+      const double error = gap_there - gap_now - t * row_velocity(row, step.bodies(), step.qdot);
       // At great speeds the error of the linear row grows without bound. Rows that ask strands to
       // part by more than they may move between samples only contradict each other.
-      row.rhs = std::min(goal - gap_now - missed * (h / t) * (h / t), settings.stride) / h;
-      put(std::move(path_row), step);
-      any = true;
+      row.rhs = std::min(goal - gap_now - error * (h / t) * (h / t), settings.stride) / h;
     }
   };
   const ContactSet& found = there.contact;
@@ -84,17 +67,16 @@ bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observat
       return PathRow{plane_row(at), {}};
     });
   });
-  return any;
+  return missed;
 }
 
-bool add_missed_bends(const StepInput& in, const Eigen::VectorXd& there, StepSolution& step) {
+std::vector<PathRow> missed_bends(const StepInput& in, const Eigen::VectorXd& there,
+                                  const StepSolution& step) {
   const Eigen::VectorXd& now = in.state.q;
-  bool any = false;
+  std::vector<PathRow> missed;
   for (const BendingCone& cone : in.model.cones) {
     const double left = (1 - in.scene.constraints.baumgarte) * past_cone(cone, now);
-    if (past_cone(cone, there) <= left + bend_tolerance) {
-      continue;
-    }
+    if (past_cone(cone, there) <= left + bend_tolerance) continue;
     const Eigen::Vector2d goal =
         bend_to(there[cone.dof + 1], there[cone.dof + 2], cone.limit + left);
     int tangents = 1;
@@ -105,10 +87,9 @@ bool add_missed_bends(const StepInput& in, const Eigen::VectorXd& there, StepSol
     Row row = cone_row(cone, total_bend(goal[0], goal[1]), tangents);
     const Eigen::Vector2d way = goal - now.segment<2>(cone.dof + 1);
     row.rhs = (row.joint()->sign * way[0] + row.joint()->next_sign * way[1]) / in.scene.time.step;
-    put({row, {}}, step);
-    any = true;
+    missed.push_back({row, {}});
   }
-  return any;
+  return missed;
 }
 
 }  // namespace hagfish

@@ -26,28 +26,29 @@ int path_samples(const Eigen::Matrix3Xd& centre_velocity, const Eigen::Vector3d&
                  double stride);
 
 /// Checks the contacts and the gaps to planes of `there`, which is where the velocities of `step`
-/// lead within time `t` (s). Each overlap deeper than `constraints.tolerance` gets a row in
-/// step.rows between the same material points. Before the step's end (t < h) way_tolerance times
+/// lead within time `t` (s). Returns a row for each overlap deeper than `constraints.tolerance`,
+/// between the same material points. Before the step's end (t < h) way_tolerance times
 /// `stride` is permitted instead. C is taken at `place`, where the equations hold:
 ///     φ_now + h C q̇ + (φ_there - φ_now - t C q̇_step) (h/t)² >= goal.
 /// The bracket is the error of the linear row at t, of second order. The goal is 0, or what the
 /// Baumgarte gain leaves of an earlier overlap. No row asks for h C q̇ over `stride`. The first
 /// added row of a contact replaces the row of the step's start. Later rows come on top of it, since
 /// strands turn about the points of one row and may meet elsewhere. A plane has one row per body:
-/// the new row replaces it. Flesh may overlap and gets none. Returns whether any row was added.
-bool add_missed_rows(const StepInput& in, const StepPlace& place, const Observation& there,
-                     double t, StepSolution& step);
+/// the new row replaces it. Flesh may overlap and gets none.
+std::vector<PathRow> missed_rows(const StepInput& in, const StepPlace& place,
+                                 const Observation& there, double t, const StepSolution& step);
 
 /// Angle past a cone that is accepted at the end of a step, rad. The next step leaves half of it
 /// (Baumgarte) and may add as much. The sum is at most 1e-5 rad, 0.0006 degrees, below the 0.001
 /// degrees that a log may show (ExpectSettings::limit_violation).
 inline constexpr double bend_tolerance = 5e-6;
 
-/// Checks the cones of universal joints, with coordinates `there` (nq) at the end of the step. A
-/// joint gets one more row if it is further past its cone than bend_tolerance and what the
-/// Baumgarte gain leaves of an earlier violation. The row is the tangent of the cone at the bend of
-/// `there`. The angles within a cone are a convex set, which no tangent cuts. So earlier rows stay,
-/// and a path that ends within the cone has never left it. Returns whether any row was added.
-bool add_missed_bends(const StepInput& in, const Eigen::VectorXd& there, StepSolution& step);
+/// Checks the cones of universal joints, with coordinates `there` (nq) at the end of the step.
+/// Returns one more row for each joint that is further past its cone than bend_tolerance and what
+/// the Baumgarte gain leaves of an earlier violation. The row is the tangent of the cone at the
+/// bend of `there`. The angles within a cone are a convex set, which no tangent cuts. So earlier
+/// rows stay, and a path that ends within the cone has never left it.
+std::vector<PathRow> missed_bends(const StepInput& in, const Eigen::VectorXd& there,
+                                  const StepSolution& step);
 
 }  // namespace hagfish

@@ -105,9 +105,7 @@ PrimalQp paper_problem(const StepInput& in, const StepPlace& place, const std::v
   PrimalQp qp;
   paper_equation_1(in, place, qp);
   std::vector<Row> bilateral, unilateral;
-  for (const Row& row : rows) {
-    (std::isinf(row.lower) ? bilateral : unilateral).push_back(row);
-  }
+  for (const Row& row : rows) (std::isinf(row.lower) ? bilateral : unilateral).push_back(row);
   const auto column = [](const std::vector<Row>& of, double Row::*member) {
     Eigen::VectorXd values(static_cast<Eigen::Index>(of.size()));
     std::ranges::transform(of, values.begin(), member);

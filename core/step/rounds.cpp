@@ -9,7 +9,6 @@
 
 #include "core/step/rows/prescribed_rows.hpp"
 #include "core/step/rows/row_selection.hpp"
-#include "core/step/step_failure.hpp"
 
 namespace hagfish {
 Rounds::Rounds(std::string back_end)
@@ -49,9 +48,7 @@ Status Rounds::begin(const StepInput& in, const StepPlace& place, const WarmStar
   add_active_torque(in.control.torque, reach, step.system);
   gather_rows(in, place, warm, step.rows);
   prescribe_rows(warm, step.rows);
-  for (const PathRow& path_row : step.path_rows) {
-    put_row(placed_row(place, path_row), step.rows);
-  }
+  for (const PathRow& path_row : step.path_rows) put_row(placed_row(place, path_row), step.rows);
   step.kind = SolveKind::linear;
   step.iterations = 0;
   step.rounds = 0;
@@ -59,12 +56,8 @@ Status Rounds::begin(const StepInput& in, const StepPlace& place, const WarmStar
   step.prescribed = 0;
   factor_known_ = false;
   if (step.rows.empty()) {
-    if (Status status = base_motion(in, place, step); !status.ok()) {
-      return status;
-    }
-    if (!add_violated(in, place, step)) {
-      return {};
-    }
+    if (Status status = base_motion(in, place, step); !status.ok()) return status;
+    if (!add_violated(in, place, step)) return {};
   }
   step.kind = SolveKind::kkt;
   return resume(in, place, warm, step);
@@ -75,9 +68,7 @@ Status Rounds::begin(const StepInput& in, const StepPlace& place, const WarmStar
 Status Rounds::resume(const StepInput& in, const StepPlace& place, const WarmStart& warm,
                       StepSolution& step) {
   do {
-    if (Status status = round(in, place, warm, step); !status.ok()) {
-      return status;
-    }
+    if (Status status = round(in, place, warm, step); !status.ok()) return status;
   } while (change_rows(in, place, step));
   if (!step.qdot.allFinite()) {
     return {Outcome::non_finite,
@@ -94,16 +85,12 @@ Status Rounds::round(const StepInput& in, const StepPlace& place, const WarmStar
     order_rows(in.model, warm, step);
     ++step.rounds;
     if (!factor_is_current(step)) {
-      if (Status status = base_motion(in, place, step); !status.ok()) {
-        return status;
-      }
+      if (Status status = base_motion(in, place, step); !status.ok()) return status;
     }
     const auto others = std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed));
-    if (others.empty()) {
-      return {};
-    }
-    step.lambda.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
-    step.lambda.tail(problem_.start.size()) = problem_.start;
+    if (others.empty()) return {};
+    step.multipliers.conservativeResize(static_cast<Eigen::Index>(step.rows.size()));
+    step.multipliers.tail(problem_.start.size()) = problem_.start;
     assemble_dual(in.model, place.kin, problem_.factor, others, problem_.base,
                   problem_.base_bodies(), problem_.columns, problem_.qp);
     if (solve_multipliers(step)) {
@@ -128,26 +115,27 @@ bool Rounds::change_rows(const StepInput& in, const StepPlace& place, StepSoluti
   return add_violated(in, place, step) || released;
 }
 
-/// Sorts the rows by place_in_step, prescribed ones first. Collects start values of the multipliers
+/// Sorts the rows by order_in_step, prescribed ones first. Collects start values of the multipliers
 /// from the last round or, in the first, from the last step.
 void Rounds::order_rows(const Model& model, const WarmStart& warm, StepSolution& step) {
   const std::size_t m = step.rows.size();
   // Rows of the last round, if there was one, come first and are already in order.
-  const std::size_t solved = step.rounds > 0 ? static_cast<std::size_t>(step.lambda.size()) : 0;
+  const std::size_t solved =
+      step.rounds > 0 ? static_cast<std::size_t>(step.multipliers.size()) : 0;
   order_.clear();
   step.prescribed = 0;
   for (std::size_t i = 0; i < m; ++i) {
     step.prescribed += step.rows[i].prescribed ? 1 : 0;
-    order_.emplace_back(place_in_step(model, step.rows[i]), i);
+    order_.emplace_back(order_in_step(model, step.rows[i]), i);
   }
   std::ranges::sort(order_);
   ordered_.clear();
   problem_.start.resize(static_cast<Eigen::Index>(m) - step.prescribed);
   for (std::size_t k = 0; k < m; ++k) {
     const std::size_t i = order_[k].second;
-    const Eigen::Index place = static_cast<Eigen::Index>(k) - step.prescribed;
-    if (place >= 0) {
-      problem_.start[place] = i < solved ? step.lambda[i] : warm.multiplier(step.rows[i].id);
+    const Eigen::Index other = static_cast<Eigen::Index>(k) - step.prescribed;
+    if (other >= 0) {
+      problem_.start[other] = i < solved ? step.multipliers[i] : warm.multiplier(step.rows[i].id);
     }
     ordered_.push_back(std::move(step.rows[i]));
   }
@@ -162,7 +150,7 @@ Status Rounds::base_motion(const StepInput& in, const StepPlace& place, StepSolu
   } catch (const std::domain_error& error) {
     return {Outcome::non_finite, error.what()};
   }
-  step.lambda.setZero(static_cast<Eigen::Index>(step.rows.size()));
+  step.multipliers.setZero(static_cast<Eigen::Index>(step.rows.size()));
   set_velocity(in, place, step);
   if (!step.qdot.allFinite()) {
     return {Outcome::non_finite,
@@ -182,14 +170,12 @@ void Rounds::set_velocity(const StepInput& in, const StepPlace& place, StepSolut
   wrench_ = step.system.wrench;
   joint_ = step.system.joint;
   for (auto i = static_cast<std::size_t>(step.prescribed); i < step.rows.size(); ++i) {
-    if (step.lambda[i] != 0) {
-      add_row(step.rows[i], kin, step.lambda[i], wrench_, joint_);
-    }
+    if (step.multipliers[i] != 0) add_row(step.rows[i], kin, step.multipliers[i], wrench_, joint_);
   }
   problem_.factor.solve(in.model, kin, wrench_, joint_, step.qdot, step.twist, reaction_);
   centre_velocities(kin, step.twist, step.centre_velocity);
   for (Eigen::Index i = 0; i < step.prescribed; ++i) {
-    step.lambda[i] = step.rows[i].joint()->sign * reaction_[i];
+    step.multipliers[i] = step.rows[i].joint()->sign * reaction_[i];
   }
 }
 
@@ -202,10 +188,8 @@ bool Rounds::solve_multipliers(StepSolution& step) {
   solver_->solve(problem_.qp, problem_.start, solution);
   step.qp_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   step.iterations += solution.iterations;
-  if (solution.status != SolveStatus::solved) {
-    return false;
-  }
-  step.lambda.tail(solution.x.size()) = solution.x;
+  if (solution.status != SolveStatus::solved) return false;
+  step.multipliers.tail(solution.x.size()) = solution.x;
   return true;
 }
 

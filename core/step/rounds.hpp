@@ -77,11 +77,17 @@ class Rounds {
   bool factor_known_ = false;  ///< problem_.factor is of this step's Eq. 1
   // Storage. A step with as many rows as the last one allocates nothing.
   std::vector<Row> violated_;                       ///< rows that the last answer violates
-  std::vector<std::pair<int, std::size_t>> order_;  ///< place_in_step and index of each row
+  std::vector<std::pair<int, std::size_t>> order_;  ///< order_in_step and index of each row
   std::vector<Row> ordered_;
   BoxQpSolution solution_;
   Matrix6Xd wrench_;
   Eigen::VectorXd joint_, reaction_;
 };
+
+/// The status of `solution`, a back end's failed answer to `qp`, the problem on `rows`. It names
+/// the rows that contradict each other, which the active-set method finds if the back end did not.
+/// Without such rows it names the row with the largest violation.
+Status describe_failure(const Model& model, const BoxQp& qp, const std::vector<Row>& rows,
+                        const BoxQpSolution& solution);
 
 }  // namespace hagfish

@@ -1,5 +1,9 @@
 #include "core/step/step.hpp"
 
+#include <algorithm>
+
+#include "core/step/rows/row_selection.hpp"
+
 namespace hagfish {
 
 StepRule& StepSolver::rule_of(const StepInput& in) {
@@ -13,7 +17,19 @@ Status StepSolver::begin(const StepInput& in, StepSolution& step) {
   return rule_of(in).begin(in, rounds_, warm, step);
 }
 
-Status StepSolver::resume(const StepInput& in, StepSolution& step) {
+Status StepSolver::resume(const StepInput& in, const std::vector<PathRow>& missed,
+                          StepSolution& step) {
+  // A row with the id of an earlier one takes its place, and so keeps its multiplier.
+  for (const PathRow& row : missed) {
+    put_row(row.row, step.rows);
+    const auto same = [&row](const PathRow& other) { return other.row.id == row.row.id; };
+    const auto place = std::ranges::find_if(step.path_rows, same);
+    if (place == step.path_rows.end()) {
+      step.path_rows.push_back(row);
+    } else {
+      *place = row;
+    }
+  }
   return rule_of(in).resume(in, rounds_, warm, step);
 }
 
@@ -26,9 +42,7 @@ void StepSolver::finish(const StepInput& in, StepSolution& step) {
 
 Status StepSolver::solve(const StepInput& in, StepSolution& step) {
   Status status = begin(in, step);
-  if (status.ok()) {
-    finish(in, step);
-  }
+  if (status.ok()) finish(in, step);
   return status;
 }
 

@@ -12,8 +12,8 @@
 namespace hagfish {
 
 /// Solves steps, one after the other, by the scene's time rule. A caller begins a step, resumes it
-/// each time after it has added rows to the solution, and finishes it; solve() does this at once. A
-/// copy has its own back end and storage.
+/// with rows that its path misses, and finishes it; solve() does this at once. The solution is
+/// output: no one else writes into it. A copy has its own back end and storage.
 class StepSolver {
  public:
   /// `back_end`: one of box_qp_solver_names(). Throws std::invalid_argument otherwise.
@@ -24,9 +24,9 @@ class StepSolver {
   /// is not finite, rows contradict each other or the back end fails.
   Status begin(const StepInput& in, StepSolution& step);
 
-  /// Solves Eq. 3 or 4 again, after rows were added to step.rows and step.path_rows. The midpoint
-  /// rule finds the middle of the step again if these rows move it. Status as above.
-  Status resume(const StepInput& in, StepSolution& step);
+  /// Solves Eq. 3 or 4 again with the rows `missed` as well (look_ahead.hpp). The midpoint rule
+  /// finds the middle of the step again if these rows move it. Status as above.
+  Status resume(const StepInput& in, const std::vector<PathRow>& missed, StepSolution& step);
 
   /// Computes forces and residuals of the solved step, and keeps its multipliers in `warm`.
   void finish(const StepInput& in, StepSolution& step);

@@ -1,8 +1,9 @@
-#include "core/step/step_failure.hpp"
-
+// Why a step's problem could not be solved, in words.
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "core/step/rounds.hpp"
 
 namespace hagfish {
 namespace {

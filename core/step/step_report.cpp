@@ -60,30 +60,27 @@ double stationarity(const Model& model, const Kinematics& kin, double reach, Rep
   return scale == 0 ? 0 : change.lpNorm<Eigen::Infinity>() / scale;
 }
 
-/// Writes |λ|, scaled to rows of unit diagonal (prescribed rows: about that), into storage.scaled,
-/// so that rows in cm/s and rad/s compare. Writes the scale into storage.row_scale.
+/// Writes the sizes of the multipliers, scaled to rows of unit diagonal (prescribed rows: about
+/// that), into storage.scaled, so that rows in cm/s and rad/s compare. Writes the scale into
+/// storage.row_scale.
 void scale_multipliers(const RowProblem& problem, const StepSolution& step,
                        ReportStorage& storage) {
   Eigen::VectorXd& scaled = storage.scaled;
-  scaled.resize(step.lambda.size());
+  scaled.resize(step.multipliers.size());
   for (Eigen::Index i = 0; i < step.prescribed; ++i) {
     scaled[i] = 1 / std::sqrt(problem.factor.pivot(step.rows[i].joint()->dof));
   }
   const Eigen::Index solved = scaled.size() - step.prescribed;
-  if (solved > 0) {
-    row_scale(problem.qp.A, scaled.tail(solved));
-  }
+  if (solved > 0) row_scale(problem.qp.A, scaled.tail(solved));
   storage.row_scale = scaled;
-  scaled.array() *= step.lambda.array().abs();
+  scaled.array() *= step.multipliers.array().abs();
 }
 
 }  // namespace
 
 void ConstraintForces::total(Eigen::VectorXd& sum) const {
   sum = of_kind[0];
-  for (std::size_t k = 1; k < of_kind.size(); ++k) {
-    sum += of_kind[k];
-  }
+  for (std::size_t k = 1; k < of_kind.size(); ++k) sum += of_kind[k];
 }
 
 Eigen::VectorXd ConstraintForces::total() const {
@@ -99,7 +96,7 @@ void measure_rows(const RowProblem& problem, ReportStorage& storage, StepSolutio
   for (Eigen::Index i = 0; i < m; ++i) {
     const Row& row = step.rows[i];
     step.excess[i] = row_velocity(row, step.bodies(), step.qdot) - row.rhs +
-                     (row.compliance > 0 ? row.compliance * step.lambda[i] : 0);
+                     (row.compliance > 0 ? row.compliance * step.multipliers[i] : 0);
   }
   // The scale of b over the whole problem: where a prescribed row binds alone, it is its b over its
   // scale.
@@ -107,8 +104,8 @@ void measure_rows(const RowProblem& problem, ReportStorage& storage, StepSolutio
   const Eigen::Index solved = m - step.prescribed;
   step.kkt = solved == 0
                  ? KktResiduals{}
-                 : kkt_residuals(problem.qp, step.lambda.tail(solved), step.excess.tail(solved),
-                                 storage.row_scale.tail(solved), beta);
+                 : kkt_residuals(problem.qp, step.multipliers.tail(solved),
+                                 step.excess.tail(solved), storage.row_scale.tail(solved), beta);
 }
 
 void keep_active(const ReportStorage& storage, const StepSolution& step, WarmStart& warm) {
@@ -116,9 +113,7 @@ void keep_active(const ReportStorage& storage, const StepSolution& step, WarmSta
   const Eigen::VectorXd& scaled = storage.scaled;
   const double least = scaled.size() > 0 ? active_share * scaled.maxCoeff() : 0;
   for (Eigen::Index i = 0; i < scaled.size(); ++i) {
-    if (scaled[i] > least) {
-      warm.add(step.rows[i].id, step.lambda[i]);
-    }
+    if (scaled[i] > least) warm.add(step.rows[i].id, step.multipliers[i]);
   }
   warm.end();
 }

@@ -15,11 +15,11 @@ class StepRule {
   virtual Status begin(const StepInput& in, Rounds& rounds, WarmStart& warm,
                        StepSolution& step) = 0;
 
-  /// Solves the step again, after rows were added to step.rows and step.path_rows.
+  /// Solves the step again, after StepSolver::resume has added rows.
   virtual Status resume(const StepInput& in, Rounds& rounds, WarmStart& warm,
                         StepSolution& step) = 0;
 
-  /// Ends a solved step: step.mean_velocity, and multipliers of the whole force. Notes in `warm`
+  /// Ends a solved step: step.mean_velocity and step.lambda. Notes in `warm`
   /// what the next step starts with.
   virtual void end(const StepInput& in, WarmStart& warm, StepSolution& step) = 0;
 

@@ -55,10 +55,14 @@ struct StepSolution {
   /// Total torque of the muscles as applied, dyn cm, nv; 0 at the root.
   Eigen::VectorXd active_torque;
   SolveKind kind = SolveKind::linear;
-  std::vector<Row> rows;           ///< rows of the problem, in the order of place_in_step
+  std::vector<Row> rows;           ///< rows of the problem, in the order of order_in_step
   std::vector<PathRow> path_rows;  ///< rows that were added along the step's path
   Eigen::Index prescribed = 0;     ///< number of prescribed rows, the first of `rows`
-  Eigen::VectorXd lambda;          ///< their multipliers, dyn s or dyn cm s
+  /// Multipliers of Eq. 3 or 4 at `qdot`, dyn s or dyn cm s.
+  Eigen::VectorXd multipliers;
+  /// λ of the whole step, in the same units: λ / h is a row's mean force. Euler's rule: the
+  /// multipliers. Midpoint rule: twice these, less the row's impact.
+  Eigen::VectorXd lambda;
   /// C q̇ - d of each row at the solution, with the yield of flesh, cm/s or rad/s.
   Eigen::VectorXd excess;
   int active = 0;      ///< rows with a force

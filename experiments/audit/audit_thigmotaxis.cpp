@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/log/frame_rows.hpp"
+#include "core/log/log_frame.hpp"
 #include "experiments/audit/row_force.hpp"
 
 namespace hagfish {

@@ -146,7 +146,7 @@ void add_prescribing(const std::string& name, const std::shared_ptr<Parts>& part
     if (row.prescribed) {
       run->prescribed.push_back({row.joint()->dof, row.joint()->sign * row.rhs});
     } else {
-      order.emplace_back(place_in_step(model, row), i);
+      order.emplace_back(order_in_step(model, row), i);
     }
   }
   std::ranges::sort(order);

@@ -62,7 +62,7 @@ ResolvedScene pulled(const std::string& scene, const Start& knotted) {
 Seen run_core(const ResolvedScene& resolved, double h) {
   Scene scene = resolved.scene;
   scene.time.step = h;
-  const Model model = make_hagfish(resolved.specimen, scene);
+  const Model& model = resolved.model;
   Simulation sim = start(model, scene, "active-set");
   StepRecord record;
   Seen seen;
@@ -79,7 +79,7 @@ Seen run_core(const ResolvedScene& resolved, double h) {
 
 Seen run_mujoco(const ResolvedScene& resolved, double h, double constant, double share) {
   const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
+  const Model& model = resolved.model;
   MujocoModel mirror(mjcf_files(model, scene.contact.least_arc, h, Head::clamped));
   mjModel& mujoco = *mirror.model();
   mjData& data = *mirror.data();

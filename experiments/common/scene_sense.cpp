@@ -6,7 +6,6 @@
 
 #include "core/input/input_error.hpp"
 #include "core/log/log_frame.hpp"
-#include "core/log/log_step.hpp"
 #include "experiments/common/terminal.hpp"
 
 namespace hagfish {
@@ -20,8 +19,7 @@ constexpr double densest = 22.6;   // osmium, g/cm^3
 constexpr double longest = 130;    // cm; the largest hagfish, Eptatretus goliath, has 127.5
 
 /// Mass over the volume of the skin.
-double density(const ResolvedScene& resolved) {
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+double density(const Model& model) {
   double volume = 0, mass = 0;
   for (const Body& body : model.bodies) {
     volume += std::numbers::pi * body.radius * body.radius * body.length;
@@ -49,7 +47,7 @@ RunSize run_size(const Scene& scene, const Model& model) {
 
 std::vector<std::string> odd_things(const ResolvedScene& scene) {
   std::vector<std::string> odd;
-  const double dense = density(scene);
+  const double dense = density(scene.model);
   if (dense > odd_ratio * water || dense < water / odd_ratio) {
     odd.push_back(
         fmt::format("specimen: a density of {:.3g} g/cm^3, but an animal has about 1; built-in "
@@ -72,18 +70,18 @@ std::vector<std::string> odd_things(const ResolvedScene& scene) {
   return odd;
 }
 
-void check_sense(const ResolvedScene& scene, const Model& model, bool force) {
+void check_sense(const ResolvedScene& scene, bool force) {
   if (scene.scene.controller.law == own_law) {
     throw InputError(
         R"(controller.law = "own": only a C++ or Python program that sets a control law can run this scene)");
   }
-  if (const double dense = density(scene); dense > densest) {
+  if (const double dense = density(scene.model); dense > densest) {
     throw InputError(fmt::format(
         "specimen: a density of {:.3g} g/cm^3 is more than any matter has ({:g}); is mass "
         "in g, and length in cm?",
         dense, densest));
   }
-  const RunSize size = run_size(scene.scene, model);
+  const RunSize size = run_size(scene.scene, scene.model);
   if (!force && (size.steps > most_steps || size.bytes > most_bytes)) {
     throw InputError(fmt::format(
         "time.duration = {:g} s at time.step = {:g} s: {:.3g} steps and up to {:.3g} GB of log. "

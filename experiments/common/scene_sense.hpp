@@ -21,7 +21,7 @@ std::vector<std::string> odd_things(const ResolvedScene& scene);
 
 /// Throws InputError where a run cannot be meant: a law of the program that made it, which this one
 /// does not have, matter denser than any; or, without `force`, more than 1e8 steps or 10 GB of log.
-void check_sense(const ResolvedScene& scene, const Model& model, bool force);
+void check_sense(const ResolvedScene& scene, bool force);
 
 /// Says what is odd on standard error; once nothing else keeps the run from being taken.
 void warn_of_odd_things(const ResolvedScene& scene);

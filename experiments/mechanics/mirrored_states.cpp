@@ -40,7 +40,7 @@ void print_state(const Model& model, const State& state) {
 void print_mirrored_states() {
   const std::string text(builtin_file("table1.toml").value());
   const ResolvedScene resolved = read_scene_source({text, "table1", std::nullopt}, {}, {});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const Model& model = resolved.model;
   Simulation sim = start(model, resolved.scene, "active-set");
   std::printf("{\"length\":%.17g,\"states\":[", model.length());
   constexpr int states = 10;

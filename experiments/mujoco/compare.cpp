@@ -187,7 +187,7 @@ void compare_errors(const Model& model, Head head, const Comparison& settings, F
 }  // namespace
 
 bool compare(const ResolvedScene& resolved, Hdf5Writer& h5) {
-  const Model model = smooth(make_hagfish(resolved.specimen, resolved.scene));
+  const Model model = smooth(resolved.model);
   const double h = resolved.scene.time.step;
   const Comparison settings;
   const int steps = rollout_steps(h, settings);

@@ -115,7 +115,7 @@ void measure(const Method& method, const Model& model, const State& start, const
 }  // namespace
 
 bool integrate(const ResolvedScene& resolved, const Motion& motion, Hdf5Writer& h5) {
-  Model model = smooth(make_hagfish(resolved.specimen, resolved.scene));
+  Model model = smooth(resolved.model);
   model.gravity = {motion.gravity, 0, 0};
   const State start = start_of(motion, model);
   const Measurement settings;

@@ -37,18 +37,18 @@ class Rerun {
     }
     folder_ = name;
     const Scene& scene = run.resolved.scene;
-    LogHeader header = log_header(run.resolved, run.model, run.qp, "");
+    LogHeader header = log_header(run.resolved, run.resolved.model, run.qp, "");
     header.past = run.past;
     if (!run.past.empty()) header.branched_from = "another log";
-    LogWriter writer(file(), false, header, run.model, scene);
+    LogWriter writer(file(), false, header, run.resolved.model, scene);
     Simulation sim = begin_again(run);
     const std::int64_t end = sim.step + steps;
     StepRecord record;
     const auto write = [&writer](const StepRecord& step, const Simulation& at) {
       writer.write(step, at, 0);
     };
-    const Status ending =
-        drive(run.model, scene, sim, record, {write}, [&sim, end] { return sim.step == end; });
+    const Status ending = drive(run.resolved.model, scene, sim, record, {write},
+                                [&sim, end] { return sim.step == end; });
     if (ending.outcome != Outcome::stopped) failure_ = ending.message;
     complete_ = finished(sim, scene);
     writer.finish("complete", sim);

@@ -81,7 +81,7 @@ void PythonSimulation::require_idle() const {
 
 PythonSimulation::PythonSimulation(const PythonRun& run)
     : resolved(resolve(run)),
-      model(make_hagfish(resolved.specimen, resolved.scene)),
+      model(resolved.model),
       sim(start(model, resolved.scene, run.qp)),
       control(record.control, model.nv()),
       slides(model),
@@ -98,7 +98,7 @@ PythonSimulation::PythonSimulation(const PythonRun& run)
 PythonSimulation::PythonSimulation(const PythonSimulation& other, const py::object& law,
                                    const std::vector<std::string>& set)
     : resolved(changed(other.resolved, set)),
-      model(make_hagfish(resolved.specimen, resolved.scene)),
+      model(resolved.model),
       sim(other.sim),
       control(record.control, model.nv()),
       slides(other.slides),

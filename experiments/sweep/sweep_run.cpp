@@ -68,7 +68,7 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
                                         const std::function<bool()>& interrupted,
                                         const std::optional<SweepLog>& log) {
   const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
+  const Model& model = resolved.model;
   KeptLog kept(log, resolved, model);
   Judge judge(model, scene);
   RunWatch watch(model, scene, judge);

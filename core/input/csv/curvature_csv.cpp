@@ -31,14 +31,14 @@ std::string append(const Sample& row, CurvatureProgram& program) {
     program.value.emplace_back(3, 0);
   }
   Eigen::Matrix3Xd& values = program.value.back();
-  const auto place = static_cast<std::size_t>(values.cols());
+  const auto index = static_cast<std::size_t>(values.cols());
   if (program.time.size() == 1) {
-    const double before = place == 0 ? 0 : program.station.back();
-    if (!(row.station >= before && row.station <= 1) || (place > 0 && row.station == before)) {
+    const double before = index == 0 ? 0 : program.station.back();
+    if (!(row.station >= before && row.station <= 1) || (index > 0 && row.station == before)) {
       return "stations must rise from 0 to 1";
     }
     program.station.push_back(row.station);
-  } else if (place >= stations || row.station != program.station[place]) {
+  } else if (index >= stations || row.station != program.station[index]) {
     return "each time must have the stations of the first";
   }
   values.conservativeResize(3, values.cols() + 1);

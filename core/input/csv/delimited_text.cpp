@@ -73,9 +73,7 @@ const char* DelimitedText::separator_name() const {
 std::optional<double> DelimitedText::number(std::size_t row, std::size_t column) const {
   const std::string_view cell = this->cell(row, column);
   std::string word;
-  for (const char c : cell) {
-    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  for (const char c : cell) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const char* missing : {"", "-", "nan", "na", "n/a", "null", "none"}) {
     if (word == missing) return std::numeric_limits<double>::quiet_NaN();
   }

@@ -1,4 +1,4 @@
-#include "core/input/toml/toml_bounds.hpp"
+#include "core/input/toml/toml_document.hpp"
 
 #include <algorithm>
 #include <string_view>

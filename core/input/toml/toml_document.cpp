@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "core/input/input_error.hpp"
-#include "core/input/toml/toml_bounds.hpp"
 #include "core/input/toml_fault.hpp"
 
 namespace hagfish {

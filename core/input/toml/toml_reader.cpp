@@ -31,7 +31,7 @@ Range in_unit(Range degrees, double unit) {
 
 struct TableReader::Impl {
   /// What an error is about: a key, the value to quote, and words to put before the reason.
-  struct Place {
+  struct Entry {
     std::string key;
     const toml::value* value = nullptr;  ///< nothing where the key is absent
     std::string subject = "";
@@ -67,29 +67,29 @@ struct TableReader::Impl {
     return "there are " + names;
   }
 
-  /// The place of `key`, which counts as read.
-  Place ask(std::string_view key) {
+  /// What stands at `key`, which counts as read.
+  Entry ask(std::string_view key) {
     known.emplace_back(key);
     const toml::value* value = peek(key);
     if (!value && all_required) missing.emplace_back(key);
     return {std::string(key), value};
   }
 
-  /// The place of NAME_deg or NAME_rad and the factor from its unit to rad.
-  std::pair<Place, double> ask_angle(std::string_view name) {
+  /// What stands at NAME_deg or NAME_rad, and the factor from its unit to rad.
+  std::pair<Entry, double> ask_angle(std::string_view name) {
     const std::string degrees = std::string(name) + "_deg", radians = std::string(name) + "_rad";
     if (peek(degrees) && peek(radians)) {
       fail({radians, peek(radians)}, degrees + " is also given; give only one");
     }
     const bool in_rad = peek(radians);
-    const Place place = ask(in_rad ? radians : degrees);
+    const Entry entry = ask(in_rad ? radians : degrees);
     known.push_back(in_rad ? degrees : radians);
-    return {place, in_rad ? 1 : std::numbers::pi / 180};
+    return {entry, in_rad ? 1 : std::numbers::pi / 180};
   }
 
-  [[noreturn]] void fail(const Place& place, const std::string& why) const {
-    const std::string full = join_keys(path, place.key);
-    const std::string reason = place.subject + why;
+  [[noreturn]] void fail(const Entry& entry, const std::string& why) const {
+    const std::string full = join_keys(path, entry.key);
+    const std::string reason = entry.subject + why;
     if (const Override* change = document->override_of(full)) {
       const bool itself = document->overrides.contains(full);
       throw_input_error(document->file + ": --set " + change->key + "=" + shortened(change->value) +
@@ -102,12 +102,12 @@ struct TableReader::Impl {
       throw_input_error(document->file + ": --set " + change.key + "=" + shortened(change.value) +
                         ": " + full + ": " + reason);
     }
-    const std::string file = document->file_of(place.value);
+    const std::string file = document->file_of(entry.value);
     std::string text = file;
-    if (place.value) text += ":" + std::to_string(place.value->location().line());
+    if (entry.value) text += ":" + std::to_string(entry.value->location().line());
     if (file != document->file) text += " (base of " + document->file + ")";
     text += ": " + full;
-    if (place.value && !place.value->is_table()) text += " = " + toml_spelling(*place.value);
+    if (entry.value && !entry.value->is_table()) text += " = " + toml_spelling(*entry.value);
     throw_input_error(text + ": " + reason);
   }
 
@@ -115,102 +115,102 @@ struct TableReader::Impl {
     return !document->si_files.empty() && document->si_files.contains(document->file_of(&value));
   }
 
-  double checked(const Place& place, const toml::value& value, const Range& range) const {
+  double checked(const Entry& entry, const toml::value& value, const Range& range) const {
     double x = 0;
     if (value.is_integer()) {
-      x = static_cast<double>(integral(place, value));
+      x = static_cast<double>(integral(entry, value));
     } else if (value.is_floating()) {
       x = value.as_floating();
     } else {
-      fail(place, "must be a number");
+      fail(entry, "must be a number");
     }
     // The parser reads a number that overflows as the largest double.
     if (!std::isfinite(x) || std::abs(x) == std::numeric_limits<double>::max()) {
-      fail(place, "must be finite");
+      fail(entry, "must be finite");
     }
     const bool si = range.unit.per_si != 1 && in_si(value);
     if (si) x *= range.unit.per_si;
     if (!range.contains(x)) {
       const bool says_number = range.low != 0 || std::isfinite(range.high);
-      fail(place, range.rule + (si && says_number ? std::string(" ") + range.unit.cgs : ""));
+      fail(entry, range.rule + (si && says_number ? std::string(" ") + range.unit.cgs : ""));
     }
     return x;
   }
 
-  std::int64_t integral(const Place& place, const toml::value& value) const {
-    if (!value.is_integer()) fail(place, "must be a whole number");
+  std::int64_t integral(const Entry& entry, const toml::value& value) const {
+    if (!value.is_integer()) fail(entry, "must be a whole number");
     const std::int64_t n = value.as_integer();
     // The parser clamps an integer that overflows.
     if (n == std::numeric_limits<std::int64_t>::max() ||
         n == std::numeric_limits<std::int64_t>::min()) {
-      fail(place, "does not fit 64 bits");
+      fail(entry, "does not fit 64 bits");
     }
     return n;
   }
 
   /// The numbers of an array of `size`, or of one or more where `size` is 0.
-  std::vector<double> array(const Place& place, const Range& range, std::size_t size,
+  std::vector<double> array(const Entry& entry, const Range& range, std::size_t size,
                             const std::string& shape) const {
-    if (!place.value->is_array()) fail(place, shape);
-    const auto& elements = place.value->as_array();
-    if (elements.empty() || (size > 0 && elements.size() != size)) fail(place, shape);
+    if (!entry.value->is_array()) fail(entry, shape);
+    const auto& elements = entry.value->as_array();
+    if (elements.empty() || (size > 0 && elements.size() != size)) fail(entry, shape);
     std::vector<double> numbers;
     for (const auto& element : elements) {
       const std::string which = "number " + std::to_string(numbers.size() + 1) + " ";
-      numbers.push_back(checked({place.key, place.value, place.subject + which}, element, range));
+      numbers.push_back(checked({entry.key, entry.value, entry.subject + which}, element, range));
     }
     return numbers;
   }
 
   /// As an override has it; a string in quotes only where it is `inside` an array.
-  std::string override_text(const Place& place, const toml::value& value, bool inside) const {
+  std::string override_text(const Entry& entry, const toml::value& value, bool inside) const {
     if (value.is_string()) return inside ? toml::format(value) : value.as_string().str;
     if (value.is_boolean()) return value.as_boolean() ? "true" : "false";
-    if (value.is_integer()) return std::to_string(integral(place, value));
-    if (value.is_floating()) return shortest(checked(place, value, any_number()));
-    if (!value.is_array()) fail(place, "must be a number, a text, true or false, or an array");
+    if (value.is_integer()) return std::to_string(integral(entry, value));
+    if (value.is_floating()) return shortest(checked(entry, value, any_number()));
+    if (!value.is_array()) fail(entry, "must be a number, a text, true or false, or an array");
     std::string text;
     for (const auto& element : value.as_array()) {
-      text += (text.empty() ? "" : ", ") + override_text(place, element, true);
+      text += (text.empty() ? "" : ", ") + override_text(entry, element, true);
     }
     return "[" + text + "]";
   }
 
   /// A length as TableReader::length() has it, cm.
-  double length(const Place& place, const toml::value& value, const Range& range) const {
+  double length(const Entry& entry, const toml::value& value, const Range& range) const {
     if (!value.is_string()) {
       Range in_cm = range;
       in_cm.unit = cgs::cm;
-      return checked(place, value, in_cm);
+      return checked(entry, value, in_cm);
     }
     const std::string& text = value.as_string().str;
     const std::optional<LeadingNumber> number = leading_number(text);
     const std::string unit = number ? text.substr(number->size) : "";
     if (!number || (unit != " L" && unit != " D")) {
-      fail(place, std::string("must be a number of ") + (in_si(value) ? "m" : "cm") +
+      fail(entry, std::string("must be a number of ") + (in_si(value) ? "m" : "cm") +
                       ", or as \"0.2 L\" or \"12 D\", of body lengths or mean "
                       "diameters");
     }
-    return checked(place, toml::value(number->value), range) *
+    return checked(entry, toml::value(number->value), range) *
            (unit == " L" ? document->body_length : document->body_diameter);
   }
 
   /// Three lengths.
-  Eigen::Vector3d place(const Place& place, const toml::value& value) const {
-    if (!value.is_array() || value.size() != 3) fail(place, "must be three lengths [x, y, z]");
+  Eigen::Vector3d place(const Entry& entry, const toml::value& value) const {
+    if (!value.is_array() || value.size() != 3) fail(entry, "must be three lengths [x, y, z]");
     const Range range = within(-largest_place, largest_place);
     Eigen::Vector3d at;
-    for (int i = 0; i < 3; ++i) at[i] = length(place, value.at(i), range);
+    for (int i = 0; i < 3; ++i) at[i] = length(entry, value.at(i), range);
     return at;
   }
 
   template <class Integer>
   void integer(std::string_view key, Integer& value, const Range& range) {
-    const Place place = ask(key);
-    if (!place.value) return;
-    const std::int64_t n = integral(place, *place.value);
-    if (!std::in_range<Integer>(n)) fail(place, "is out of range");
-    if (!range.contains(static_cast<double>(n))) fail(place, range.rule);
+    const Entry entry = ask(key);
+    if (!entry.value) return;
+    const std::int64_t n = integral(entry, *entry.value);
+    if (!std::in_range<Integer>(n)) fail(entry, "is out of range");
+    if (!range.contains(static_cast<double>(n))) fail(entry, range.rule);
     value = static_cast<Integer>(n);
   }
 };
@@ -277,23 +277,23 @@ bool TableReader::was_set(std::string_view key) const {
 }
 
 void TableReader::string(std::string_view key, std::string& value) {
-  const Impl::Place place = impl_->ask(key);
-  if (!place.value) return;
-  if (place.value->is_string()) {
-    value = place.value->as_string().str;
+  const Impl::Entry entry = impl_->ask(key);
+  if (!entry.value) return;
+  if (entry.value->is_string()) {
+    value = entry.value->as_string().str;
   } else if (was_set(key)) {
     // --set title=2 is a title too.
     value = impl_->document->override_of(join_keys(impl_->path, key))->value;
   } else {
-    impl_->fail(place, "must be a string in quotes");
+    impl_->fail(entry, "must be a string in quotes");
   }
 }
 
 void TableReader::boolean(std::string_view key, bool& value) {
-  const Impl::Place place = impl_->ask(key);
-  if (!place.value) return;
-  if (!place.value->is_boolean()) impl_->fail(place, "must be true or false");
-  value = place.value->as_boolean();
+  const Impl::Entry entry = impl_->ask(key);
+  if (!entry.value) return;
+  if (!entry.value->is_boolean()) impl_->fail(entry, "must be true or false");
+  value = entry.value->as_boolean();
 }
 
 void TableReader::integer(std::string_view key, int& value, const Range& range) {
@@ -305,8 +305,8 @@ void TableReader::integer(std::string_view key, unsigned& value, const Range& ra
 }
 
 void TableReader::number(std::string_view key, double& value, const Range& range) {
-  const Impl::Place place = impl_->ask(key);
-  if (place.value) value = impl_->checked(place, *place.value, range);
+  const Impl::Entry entry = impl_->ask(key);
+  if (entry.value) value = impl_->checked(entry, *entry.value, range);
 }
 
 void TableReader::set_body(double length, double diameter) {
@@ -315,51 +315,51 @@ void TableReader::set_body(double length, double diameter) {
 }
 
 void TableReader::length(std::string_view key, double& value, const Range& range) {
-  const Impl::Place place = impl_->ask(key);
-  if (place.value) value = impl_->length(place, *place.value, range);
+  const Impl::Entry entry = impl_->ask(key);
+  if (entry.value) value = impl_->length(entry, *entry.value, range);
 }
 
 void TableReader::place(std::string_view key, Eigen::Vector3d& value) {
-  const Impl::Place place = impl_->ask(key);
-  if (place.value) value = impl_->place(place, *place.value);
+  const Impl::Entry entry = impl_->ask(key);
+  if (entry.value) value = impl_->place(entry, *entry.value);
 }
 
 void TableReader::places(std::string_view key, std::vector<Eigen::Vector3d>& value) {
-  const Impl::Place place = impl_->ask(key);
-  if (!place.value) return;
-  if (!place.value->is_array() || place.value->as_array().empty()) {
-    impl_->fail(place, "must be an array of points [x, y, z]");
+  const Impl::Entry entry = impl_->ask(key);
+  if (!entry.value) return;
+  if (!entry.value->is_array() || entry.value->as_array().empty()) {
+    impl_->fail(entry, "must be an array of points [x, y, z]");
   }
   value.clear();
-  for (const auto& point : place.value->as_array()) {
+  for (const auto& point : entry.value->as_array()) {
     const std::string which = "point " + std::to_string(value.size() + 1) + " ";
-    value.push_back(impl_->place({place.key, &point, which}, point));
+    value.push_back(impl_->place({entry.key, &point, which}, point));
   }
 }
 
 void TableReader::vector(std::string_view key, Eigen::Vector3d& value, Unit unit) {
-  const Impl::Place place = impl_->ask(key);
-  if (!place.value) return;
-  const auto x = impl_->array(place, any_number(unit), 3, "must be three numbers [x, y, z]");
+  const Impl::Entry entry = impl_->ask(key);
+  if (!entry.value) return;
+  const auto x = impl_->array(entry, any_number(unit), 3, "must be three numbers [x, y, z]");
   value = Eigen::Vector3d::Map(x.data());
 }
 
 void TableReader::numbers(std::string_view key, std::vector<double>& value, const Range& range) {
-  const Impl::Place place = impl_->ask(key);
-  if (place.value) value = impl_->array(place, range, 0, numbers_wanted);
+  const Impl::Entry entry = impl_->ask(key);
+  if (entry.value) value = impl_->array(entry, range, 0, numbers_wanted);
 }
 
 void TableReader::rows(std::string_view key, std::string_view noun, std::string_view columns,
                        std::vector<Eigen::Vector4d>& value, Unit unit) {
-  const Impl::Place place = impl_->ask(key);
-  if (!place.value) return;
+  const Impl::Entry entry = impl_->ask(key);
+  if (!entry.value) return;
   const std::string shape = "[" + std::string(columns) + "]";
-  if (!place.value->is_array()) impl_->fail(place, "must be an array of arrays " + shape);
+  if (!entry.value->is_array()) impl_->fail(entry, "must be an array of arrays " + shape);
   value.clear();
-  for (const auto& row : place.value->as_array()) {
+  for (const auto& row : entry.value->as_array()) {
     const std::string which = std::string(noun) + " " + std::to_string(value.size() + 1) + " ";
     const auto numbers =
-        impl_->array({place.key, &row, which}, any_number(), 4, "must be four numbers " + shape);
+        impl_->array({entry.key, &row, which}, any_number(), 4, "must be four numbers " + shape);
     value.emplace_back(Eigen::Vector4d::Map(numbers.data()));
     if (impl_->in_si(row)) value.back().tail<3>() *= unit.per_si;
   }
@@ -367,14 +367,14 @@ void TableReader::rows(std::string_view key, std::string_view noun, std::string_
 
 void TableReader::text_rows(std::string_view key, std::string_view noun, std::string_view form,
                             std::vector<std::array<std::string, 3>>& value) {
-  const Impl::Place place = impl_->ask(key);
-  if (!place.value) return;
+  const Impl::Entry entry = impl_->ask(key);
+  if (!entry.value) return;
   const std::string wanted = "must be an array of arrays " + std::string(form);
-  if (!place.value->is_array()) impl_->fail(place, wanted);
+  if (!entry.value->is_array()) impl_->fail(entry, wanted);
   value.clear();
-  for (const auto& row : place.value->as_array()) {
+  for (const auto& row : entry.value->as_array()) {
     const std::string which = std::string(noun) + " " + std::to_string(value.size() + 1) + " ";
-    const Impl::Place here{place.key, &row, which};
+    const Impl::Entry here{entry.key, &row, which};
     if (!row.is_array() || row.size() != 3 || !row.at(0).is_string()) {
       impl_->fail(here, "must be " + std::string(form));
     }
@@ -388,40 +388,40 @@ void TableReader::text_rows(std::string_view key, std::string_view noun, std::st
 }
 
 void TableReader::values(std::string_view key, std::vector<std::string>& value) {
-  const Impl::Place place = impl_->ask(key);
-  if (!place.value) return;
-  if (!place.value->is_array()) impl_->fail(place, "must be an array");
-  if (place.value->as_array().empty()) impl_->fail(place, "holds no value");
+  const Impl::Entry entry = impl_->ask(key);
+  if (!entry.value) return;
+  if (!entry.value->is_array()) impl_->fail(entry, "must be an array");
+  if (entry.value->as_array().empty()) impl_->fail(entry, "holds no value");
   value.clear();
-  for (const auto& element : place.value->as_array()) {
+  for (const auto& element : entry.value->as_array()) {
     const std::string which = "value " + std::to_string(value.size() + 1) + " ";
-    value.push_back(impl_->override_text({place.key, place.value, which}, element, false));
+    value.push_back(impl_->override_text({entry.key, entry.value, which}, element, false));
   }
 }
 
 std::vector<std::string> TableReader::keys() const {
-  using Place = std::tuple<std::uint_least32_t, std::uint_least32_t, std::string>;
-  std::vector<Place> places;
+  using LinedKey = std::tuple<std::uint_least32_t, std::uint_least32_t, std::string>;
+  std::vector<LinedKey> found;
   if (impl_->table) {
     for (const auto& [key, value] : impl_->table->as_table()) {
-      places.emplace_back(value.location().line(), value.location().column(), key);
+      found.emplace_back(value.location().line(), value.location().column(), key);
     }
   }
-  std::ranges::sort(places);
+  std::ranges::sort(found);
   std::vector<std::string> names;
-  for (const Place& place : places) names.push_back(std::get<std::string>(place));
+  for (const LinedKey& key : found) names.push_back(std::get<std::string>(key));
   return names;
 }
 
 void TableReader::angle(std::string_view name, double& value, const Range& range) {
-  const auto [place, unit] = impl_->ask_angle(name);
-  if (place.value) value = impl_->checked(place, *place.value, in_unit(range, unit)) * unit;
+  const auto [entry, unit] = impl_->ask_angle(name);
+  if (entry.value) value = impl_->checked(entry, *entry.value, in_unit(range, unit)) * unit;
 }
 
 void TableReader::angles(std::string_view name, std::vector<double>& value, const Range& range) {
-  const auto [place, unit] = impl_->ask_angle(name);
-  if (!place.value) return;
-  value = impl_->array(place, in_unit(range, unit), 0, numbers_wanted);
+  const auto [entry, unit] = impl_->ask_angle(name);
+  if (!entry.value) return;
+  value = impl_->array(entry, in_unit(range, unit), 0, numbers_wanted);
   for (double& x : value) x *= unit;
 }
 
@@ -441,21 +441,21 @@ std::optional<std::size_t> TableReader::choice_index(std::string_view key,
 TableReader TableReader::open(std::string_view key) {
   auto child = std::make_unique<Impl>();
   child->document = impl_->document;
-  const Impl::Place place = impl_->ask(key);
+  const Impl::Entry entry = impl_->ask(key);
   child->path = join_keys(impl_->path, key);
   // What is no table is refused by finish(), which knows the keys that a table would have.
-  const bool is_table = place.value && place.value->is_table();
-  (is_table ? child->table : child->other) = place.value;
+  const bool is_table = entry.value && entry.value->is_table();
+  (is_table ? child->table : child->other) = entry.value;
   return TableReader(std::move(child));
 }
 
 std::vector<TableReader> TableReader::open_all(std::string_view key) {
   std::vector<TableReader> children;
-  const Impl::Place place = impl_->ask(key);
-  if (!place.value) return children;
-  if (!place.value->is_array()) impl_->fail(place, "must be an array of tables");
-  for (const auto& element : place.value->as_array()) {
-    if (!element.is_table()) impl_->fail(place, "must be an array of tables");
+  const Impl::Entry entry = impl_->ask(key);
+  if (!entry.value) return children;
+  if (!entry.value->is_array()) impl_->fail(entry, "must be an array of tables");
+  for (const auto& element : entry.value->as_array()) {
+    if (!element.is_table()) impl_->fail(entry, "must be an array of tables");
     auto child = std::make_unique<Impl>();
     child->document = impl_->document;
     child->table = &element;

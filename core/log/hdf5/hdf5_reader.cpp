@@ -146,9 +146,7 @@ auto Hdf5Reader::reading(const std::string& what, Work&& work) const {
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : file_(file.string()) {
   H5::Exception::dontPrint();
-  if (const std::string why = unreadable(file); !why.empty()) {
-    throw FileError(file_ + ": " + why);
-  }
+  if (const std::string why = unreadable(file); !why.empty()) throw FileError(file_ + ": " + why);
   file_size_ = std::filesystem::file_size(file);
   if (H5Fis_hdf5(file.c_str()) == 0) throw FileError(file_ + ": is not an HDF5 file");
   reading("read as HDF5", [&] {
@@ -157,9 +155,7 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : file_(file.string())
 }
 
 H5::DataSet Hdf5Reader::open(const std::string& path) const {
-  if (!has(path)) {
-    throw FileError(file_ + ": has no " + path);
-  }
+  if (!has(path)) throw FileError(file_ + ": has no " + path);
   return reading("read " + path, [&] {
     if (h5_.childObjType(path) != H5O_TYPE_DATASET) {
       throw FileError(file_ + ": " + path + " is not a dataset");
@@ -184,9 +180,7 @@ bool Hdf5Reader::has(const std::string& path) const {
 bool Hdf5Reader::holds(const std::string& path) const {
   for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
     const std::string part = path.substr(0, end);
-    if (!h5_.nameExists(part)) {
-      return false;
-    }
+    if (!h5_.nameExists(part)) return false;
     H5L_info_t link;
     if (H5Lget_info(h5_.getId(), part.c_str(), &link, H5P_DEFAULT) < 0) {
       throw FileError(file_ + ": " + part + " cannot be looked up");
@@ -194,9 +188,7 @@ bool Hdf5Reader::holds(const std::string& path) const {
     if (link.type != H5L_TYPE_HARD) {
       throw FileError(file_ + ": " + part + " is a link; only what the file itself has is read");
     }
-    if (end == std::string::npos) {
-      return true;
-    }
+    if (end == std::string::npos) return true;
     if (h5_.childObjType(part) != H5O_TYPE_GROUP) {
       throw FileError(file_ + ": " + part + " is not a group");
     }
@@ -229,9 +221,7 @@ std::optional<std::int64_t> Hdf5Reader::attribute_int(const std::string& group,
   return reading("read attribute " + name + " of " + group, [&] {
     require_group(group);
     const H5::Group members = h5_.openGroup(group);
-    if (!members.attrExists(name)) {
-      return std::optional<std::int64_t>();
-    }
+    if (!members.attrExists(name)) return std::optional<std::int64_t>();
     return std::optional(whole_number_of(members.openAttribute(name),
                                          file_ + ": attribute " + name + " of " + group));
   });
@@ -308,18 +298,14 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
     }
     std::vector<char*> raw(count);
     set.read(raw.data(), type);
-    for (const char* text : raw) {
-      values.emplace_back(text != nullptr ? text : "");
-    }
+    for (const char* text : raw) values.emplace_back(text != nullptr ? text : "");
     H5::DataSet::vlenReclaim(raw.data(), type, set.getSpace());
     return values;
   });
 }
 
 std::string Hdf5Reader::text(const std::string& path) const {
-  if (size_of(shape(path)) != 1) {
-    throw FileError(file_ + ": " + path + " is not one text");
-  }
+  if (size_of(shape(path)) != 1) throw FileError(file_ + ": " + path + " is not one text");
   return texts(path).at(0);
 }
 
@@ -372,9 +358,7 @@ std::vector<std::string> Hdf5Reader::datasets() const {
 
 void Hdf5Reader::require_group(const std::string& path) const {
   if (path == "/") return;
-  if (!has(path)) {
-    throw FileError(file_ + ": has no " + path);
-  }
+  if (!has(path)) throw FileError(file_ + ": has no " + path);
   if (reading("read " + path, [&] { return h5_.childObjType(path); }) != H5O_TYPE_GROUP) {
     throw FileError(file_ + ": " + path + " is not a group");
   }
@@ -390,9 +374,7 @@ std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
           fmt::format("{}: {} holds {} objects (at most {})", file_, group, count, most_names));
     }
     std::vector<std::string> names;
-    for (hsize_t i = 0; i < count; ++i) {
-      names.push_back(members.getObjnameByIdx(i));
-    }
+    for (hsize_t i = 0; i < count; ++i) names.push_back(members.getObjnameByIdx(i));
     return names;
   });
 }

@@ -30,9 +30,7 @@ H5::DSetMemXferPropList text_transfer() {
 }
 
 void text_attribute(H5::H5Object& object, const std::string& name, const std::string& value) {
-  if (object.attrExists(name)) {
-    object.removeAttr(name);
-  }
+  if (object.attrExists(name)) object.removeAttr(name);
   object.createAttribute(name, text_type(), H5::DataSpace(H5S_SCALAR)).write(text_type(), value);
 }
 
@@ -132,9 +130,7 @@ void Hdf5Writer::text(const std::string& path, const std::string& value) {
 
 void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& values) {
   std::vector<const char*> pointers;
-  for (const std::string& value : values) {
-    pointers.push_back(value.c_str());
-  }
+  for (const std::string& value : values) pointers.push_back(value.c_str());
   guarded(name_, "write " + path, [&] {
     const hsize_t size = values.size();
     h5_.createDataSet(path, text_type(), H5::DataSpace(1, &size))
@@ -219,14 +215,10 @@ void Hdf5Writer::save(const std::filesystem::path& file) const {
   };
   errno = 0;
   std::ofstream stream(fresh, std::ios::binary);
-  if (!stream) {
-    fail("created");
-  }
+  if (!stream) fail("created");
   stream.write(image.data(), static_cast<std::streamsize>(image.size()));
   stream.close();
-  if (!stream) {
-    fail("written");
-  }
+  if (!stream) fail("written");
   std::error_code error;
   std::filesystem::rename(fresh, file, error);
   if (error) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 #include <stdexcept>
+#include <type_traits>
 
 namespace hagfish {
 namespace {
@@ -28,21 +29,10 @@ std::size_t size_of(const std::vector<hsize_t>& shape) {
 }
 
 template <class T>
-H5::DataType stored_type();
-template <>
-H5::DataType stored_type<double>() {
-  return H5::PredType::NATIVE_DOUBLE;
-}
-template <>
-H5::DataType stored_type<std::int32_t>() {
-  return H5::PredType::NATIVE_INT32;
-}
-template <>
-H5::DataType stored_type<std::int64_t>() {
-  return H5::PredType::NATIVE_INT64;
-}
-template <>
-H5::DataType stored_type<std::uint8_t>() {
+H5::DataType stored_type() {
+  if constexpr (std::is_same_v<T, double>) return H5::PredType::NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5::PredType::NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5::PredType::NATIVE_INT64;
   return H5::PredType::NATIVE_UINT8;
 }
 
@@ -82,9 +72,7 @@ void AnySeries::cut(hsize_t rows) {
 
 template <class T>
 void Series<T>::append(const T* row, std::size_t count) {
-  if (count != row_size()) {
-    throw std::logic_error("log row has the wrong size");
-  }
+  if (count != row_size()) throw std::logic_error("log row has the wrong size");
   if (waiting_.empty()) waiting_.reserve(first_rows * row_size());
   waiting_.insert(waiting_.end(), row, row + count);
   if constexpr (std::is_same_v<T, double>) {

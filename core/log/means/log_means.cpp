@@ -8,9 +8,7 @@ namespace {
 /// Calls `visit` with each part of the means that is a vector.
 template <class Means, class Visit>
 void visit_vectors(Means& means, Visit visit) {
-  for (auto& force : means.force.of_kind) {
-    visit(force);
-  }
+  for (auto& force : means.force.of_kind) visit(force);
   visit(means.active_torque);
   visit(means.net_force);
 }
@@ -37,9 +35,7 @@ void RunningMeans::take(const StepRecord& record, const ThigmotaxisRows& rows) {
   const StepSolution& step = record.solution;
   sum_.pulls = steps_ == 0 ? record.controller.phase == Phase::pull : sum_.pulls;
   ++steps_;
-  for (const RowKind kind : row_kinds) {
-    sum_.force[kind] += step.force[kind];
-  }
+  for (const RowKind kind : row_kinds) sum_.force[kind] += step.force[kind];
   sum_.active_torque += step.active_torque;
   sum_.net_force += step.net_force;
   sum_.sum_of_rows += rows.sum;

@@ -1,4 +1,4 @@
-#include "core/log/means/pull_figures.hpp"
+#include "core/log/means/log_means.hpp"
 
 namespace hagfish {
 namespace {

@@ -37,9 +37,7 @@ ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& 
   rows.slack.fill(nan);
   rows.met = true;
   for (std::size_t i = 0; i < solution.rows.size(); ++i) {
-    if (solution.rows[i].kind != RowKind::thigmotaxis) {
-      continue;
-    }
+    if (solution.rows[i].kind != RowKind::thigmotaxis) continue;
     const ThigmotaxisRow row = thigmotaxis_row(control, solution, i, h);
     const bool other = row.end == KnotEnd::neither;
     rows.any = true;
@@ -50,12 +48,12 @@ ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& 
       rows.others_slack = std::fmax(rows.others_slack, row.slack);
       continue;
     }
-    const std::size_t place = 2 * static_cast<std::size_t>(row.end) + (row.along_a ? 0 : 1);
-    rows.present[place] = true;
-    rows.lambda[place] = row.lambda;
-    rows.command[place] = row.command;
-    rows.speed[place] = row.speed;
-    rows.slack[place] = row.slack;
+    const std::size_t k = 2 * static_cast<std::size_t>(row.end) + (row.along_a ? 0 : 1);
+    rows.present[k] = true;
+    rows.lambda[k] = row.lambda;
+    rows.command[k] = row.command;
+    rows.speed[k] = row.speed;
+    rows.slack[k] = row.slack;
     rows.cap = row.cap;
   }
   rows.met = rows.met && rows.any;

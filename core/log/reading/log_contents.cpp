@@ -17,15 +17,13 @@ LogContents::LogContents(const std::string& file, LogLevel least) : h5(file) {
   require_log(h5);
   require_level(h5, least);
   resolved = logged_scene(h5);
-  model = make_hagfish(resolved.specimen, resolved.scene);
+  model = resolved.model;
   check_schema(h5, model, resolved.scene);
   time = h5.doubles("/trajectory/time");
   phase = h5.integers("/trajectory/phase");
   begun = std::ssize(time) - (ends_with_end_frame(h5) ? 1 : 0);
   const LogLevel level = level_of(h5);
-  if (level >= LogLevel::frames) {
-    q = h5.rows("/trajectory/q");
-  }
+  if (level >= LogLevel::frames) q = h5.rows("/trajectory/q");
   if (level == LogLevel::full) {
     qdot = h5.rows("/trajectory/qdot");
     qdot_next = h5.rows("/trajectory/qdot_next");

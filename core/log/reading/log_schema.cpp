@@ -9,9 +9,7 @@
 #include <functional>
 #include <numeric>
 
-#include "core/log/frame_rows.hpp"
 #include "core/log/log_frame.hpp"
-#include "core/log/log_step.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/log/reading/logged_run.hpp"
 

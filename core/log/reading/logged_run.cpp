@@ -93,8 +93,7 @@ LoggedRun logged_run(const Hdf5Reader& h5) {
   if (const std::string why = why_not_again(h5); !why.empty()) {
     throw FileError(h5.file() + ": cannot be run again: " + why);
   }
-  LoggedRun run{logged_scene(h5), {}, h5.root_text("qp"), past_of(h5), 0};
-  run.model = make_hagfish(run.resolved.specimen, run.resolved.scene);
+  LoggedRun run{logged_scene(h5), h5.root_text("qp"), past_of(h5), 0};
   const std::vector<std::int64_t> steps = h5.integers("/trajectory/step");
   double begin = 0;
   if (!run.past.empty()) {
@@ -120,25 +119,22 @@ void go_on_to(std::int64_t step, const Model& model, const Scene& scene, Simulat
 }
 
 Simulation begin_again(const LoggedRun& run) {
-  if (run.past.empty()) return start(run.model, run.resolved.scene, run.qp);
+  if (run.past.empty()) return start(run.resolved.model, run.resolved.scene, run.qp);
   ResolvedScene now = scene_of(run.past[0].scene, "origin");
-  Model model = make_hagfish(now.specimen, now.scene);
-  Simulation sim = start(model, now.scene, run.qp);
+  Simulation sim = start(now.model, now.scene, run.qp);
   for (std::size_t k = 0; k < run.past.size(); ++k) {
-    go_on_to(run.past[k].end, model, now.scene, sim);
+    go_on_to(run.past[k].end, now.model, now.scene, sim);
     const bool last = k + 1 == run.past.size();
     ResolvedScene next = last ? run.resolved : scene_of(run.past[k + 1].scene, "origin");
-    model = make_hagfish(next.specimen, next.scene);
-    branch(model, now, next, sim);
+    branch(now, next, sim);
     now = std::move(next);
   }
   return sim;
 }
 
-void branch(const Model& model, const ResolvedScene& before, const ResolvedScene& after,
-            Simulation& sim) {
+void branch(const ResolvedScene& before, const ResolvedScene& after, Simulation& sim) {
   const auto text = [](const ResolvedScene& of) { return scene_to_toml(of.scene, of.specimen); };
-  if (text(before) != text(after)) change_scene(model, before.scene, after.scene, sim);
+  if (text(before) != text(after)) change_scene(after.model, before.scene, after.scene, sim);
   sim.watch = {};  // a branch's own log warns of what it does
 }
 

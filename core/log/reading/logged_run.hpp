@@ -31,7 +31,6 @@ ResolvedScene logged_scene(const Hdf5Reader& h5, const std::vector<std::string>&
 /// kind.
 struct LoggedRun {
   ResolvedScene resolved;
-  Model model;
   std::string qp;                 ///< QP back end
   std::vector<SceneBefore> past;  ///< scenes of a branch before its own
   std::int64_t steps = 0;         ///< step before which the last frame stands
@@ -43,10 +42,9 @@ std::string why_not_again(const Hdf5Reader& h5);
 /// Throws FileError where `h5` is no log, or one whose run cannot be made again.
 LoggedRun logged_run(const Hdf5Reader& h5);
 
-/// Lets the run `sim`, of the scene `before`, go on in the scene `after`, of which `model` is.
-/// Throws std::invalid_argument as change_scene().
-void branch(const Model& model, const ResolvedScene& before, const ResolvedScene& after,
-            Simulation& sim);
+/// Lets the run `sim`, of the scene `before`, go on in the scene `after`. Throws
+/// std::invalid_argument as change_scene().
+void branch(const ResolvedScene& before, const ResolvedScene& after, Simulation& sim);
 
 /// Takes a run on until `step` comes next. Throws StepError where a step fails, and FileError where
 /// the scene is over before.

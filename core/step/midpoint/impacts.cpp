@@ -1,9 +1,10 @@
-#include "core/step/midpoint/impacts.hpp"
-
+// Impacts of a step of the midpoint rule, and the velocity after it.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "core/step/midpoint/midpoint_rule.hpp"
 
 namespace hagfish {
 namespace {
@@ -62,7 +63,7 @@ bool Impacts::find() {
   bool any = false;
   for (std::size_t i = 0; i < step_.rows.size(); ++i) {
     Row& row = step_.rows[i];
-    const double lambda = step_.lambda[static_cast<Eigen::Index>(i)];
+    const double lambda = step_.multipliers[static_cast<Eigen::Index>(i)];
     row.impact = 0;
     if (lambda >= row.upper) {
       row.impact = lambda;
@@ -113,7 +114,7 @@ void Impacts::bound_impacts() {
     for (std::size_t k = impact_rows_.size(); k-- > 0;) {
       const std::size_t i = impact_rows_[k];
       Row& row = step_.rows[i];
-      const double lambda = 2 * step_.lambda[static_cast<Eigen::Index>(i)];
+      const double lambda = 2 * step_.multipliers[static_cast<Eigen::Index>(i)];
       row.impact = std::clamp(impact_x_[k], lambda - row.upper, lambda - row.lower);
       if (row.impact == impact_x_[k]) continue;
       again = true;
@@ -147,7 +148,7 @@ bool Impacts::release_pulling_limits() {
   std::size_t left = 0;
   for (std::size_t k = 0; k < prescribed_rows_.size(); ++k) {
     Row& row = step_.rows[prescribed_rows_[k]];
-    const double lambda = 2 * step_.lambda[static_cast<Eigen::Index>(prescribed_rows_[k])];
+    const double lambda = 2 * step_.multipliers[static_cast<Eigen::Index>(prescribed_rows_[k])];
     if (lambda - row.impact < row.lower) {
       row.impact = lambda - row.lower;
       add_row(row, place_.kin, row.impact, wrench_, joint_);
@@ -202,9 +203,7 @@ Status set_next_velocity(const StepInput& in, const StepPlace& place, const RowP
   half_change = step.qdot - in.state.qdot;
   try {
     Impacts impacts(in, place, problem, step);
-    if (const Eigen::VectorXd& change = impacts.change(); change.size() > 0) {
-      half_change -= change;
-    }
+    if (const Eigen::VectorXd& change = impacts.change(); change.size() > 0) half_change -= change;
   } catch (const std::domain_error& error) {
     return {Outcome::non_finite, error.what()};
   }

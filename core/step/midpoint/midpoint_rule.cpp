@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/step/midpoint/impacts.hpp"
-
 namespace hagfish {
 namespace {
 
@@ -23,8 +21,8 @@ double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 void keep_pass(const StepSolution& step, WarmStart& warm) {
   warm.begin();
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    if (const double lambda = step.lambda[static_cast<Eigen::Index>(i)]; lambda != 0) {
-      warm.add(step.rows[i].id, lambda);
+    if (const double kept = step.multipliers[static_cast<Eigen::Index>(i)]; kept != 0) {
+      warm.add(step.rows[i].id, kept);
     }
   }
   warm.end();
@@ -48,9 +46,7 @@ void MidpointRule::guess_middle(const StepInput& in, const WarmStart& warm) {
   const Eigen::Index nv = in.model.nv();
   first_guess_.resize(2 * nv);
   first_guess_.head(nv) = in.state.qdot;
-  if (warm.half_before.size() > 0) {
-    first_guess_.head(nv) += 2 * warm.half_change - warm.half_before;
-  }
+  if (warm.half_before.size() > 0) first_guess_.head(nv) += 2 * warm.half_change - warm.half_before;
   if (warm.half_change.size() == 0 && !in.control.clamp_head) {
     first_guess_.head<3>() += in.scene.time.reach() * in.model.gravity;
   }
@@ -65,12 +61,8 @@ Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm
   const auto settled_or_stopped = [&] {
     return status.ok() ? step.middle.unsettled == 0 : status.outcome == Outcome::stopped;
   };
-  if (!settled_or_stopped()) {
-    status = find_middle(in, false, rounds, warm, step);
-  }
-  if (settled_or_stopped()) {
-    return status;
-  }
+  if (!settled_or_stopped()) status = find_middle(in, false, rounds, warm, step);
+  if (settled_or_stopped()) return status;
   // Passes that do not converge may diverge until one fails. Then the step is taken from its own
   // first velocity.
   if (!status.ok()) step.middle.unsettled = unlimited;
@@ -101,17 +93,13 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
     ++middle.passes;
     place_midway(in.model, in.state, in.observation.kin, time.step, balanced, keeps_momentum(in),
                  midway_);
-    if (Status status = solve_here(in, rounds, warm, step); !status.ok()) {
-      return status;
-    }
+    if (Status status = solve_here(in, rounds, warm, step); !status.ok()) return status;
     const double off = difference(step.qdot, midway_.step_velocity);
     if (pass > 1) {
       // Changes shrink by the factor θ: the rest is off (θ + θ² + ...) = off θ / (1 - θ).
       middle.remaining = off < before ? std::max(off / (before - off), least_remaining) : unlimited;
     }
-    if (off == 0 || middle.remaining * off <= time.settled) {
-      return {};
-    }
+    if (off == 0 || middle.remaining * off <= time.settled) return {};
     before = off;
     if (pass >= time.passes) {
       middle.unsettled = off;
@@ -137,9 +125,7 @@ Status MidpointRule::solve_here(const StepInput& in, Rounds& rounds, const WarmS
 Status MidpointRule::resume(const StepInput& in, Rounds& rounds, WarmStart& warm,
                             StepSolution& step) {
   Status status = rounds.resume(in, place(in), warm, step);
-  if (status.ok()) {
-    status = set_next_velocity(in, place(in), rounds.problem(), step, half_change_);
-  }
+  if (status.ok()) status = set_next_velocity(in, place(in), rounds.problem(), step, half_change_);
   if (!status.ok() || difference(step.qdot, midway_.step_velocity) <= in.scene.time.settled) {
     return status;
   }
@@ -155,9 +141,9 @@ void MidpointRule::end(const StepInput& in, WarmStart& warm, StepSolution& step)
   warm.half_before = warm.half_change;
   warm.half_change = half_change_;
   warm.remaining = step.middle.remaining;
-  // The multipliers of the step velocity become those of the step's whole force.
+  step.lambda.resize(step.multipliers.size());
   for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    step.lambda[i] = 2 * step.lambda[i] - step.rows[i].impact;
+    step.lambda[i] = 2 * step.multipliers[i] - step.rows[i].impact;
   }
   step.middle.step_velocity = midway_.step_velocity;
   step.middle.mean_velocity = midway_.mean_velocity;

@@ -28,10 +28,16 @@ class MidpointRule : public StepRule {
   Status solve_here(const StepInput& in, Rounds& rounds, const WarmStart& warm, StepSolution& step);
 
   Midway midway_;                ///< middle of the step last begun
-  Eigen::VectorXd half_change_;  ///< half change of the last pass (impacts.hpp), nv
+  Eigen::VectorXd half_change_;  ///< half change of the last pass (set_next_velocity), nv
   // Step velocity and mean velocity, 2 nv.
   AndersonMixing passes_;
   Eigen::VectorXd first_guess_, placed_by_, led_to_, mixed_;
 };
+
+/// Computes step.next and the impacts of step.rows, for a step that is solved at `place` by
+/// `problem`. Writes into `half_change` (nv) half of the change of velocity by steady forces. Not
+/// ok (non_finite) where a prescribed limit cannot be released.
+Status set_next_velocity(const StepInput& in, const StepPlace& place, const RowProblem& problem,
+                         StepSolution& step, Eigen::VectorXd& half_change);
 
 }  // namespace hagfish

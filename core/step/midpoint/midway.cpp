@@ -67,9 +67,7 @@ void place_midway(const Model& model, const State& state, const Kinematics& now,
   body_twists(model, midway.kin, midway.mean_velocity, midway.mean_twist);
   const double fastest = midway.kin.twist.topRows<3>().colwise().squaredNorm().maxCoeff();
   midway.balanced = balanced && h * h * fastest > least_turn * least_turn;
-  if (midway.balanced) {
-    set_bias_power(model, state, now, h, kept, midway);
-  }
+  if (midway.balanced) set_bias_power(model, state, now, h, kept, midway);
 }
 
 }  // namespace hagfish

@@ -54,14 +54,10 @@ void append_contact_row(const Model& model, const Contact& contact,
                         const std::vector<SplineSegment>* at, const ConstraintSettings& settings,
                         double h, const NearBinding& wanted, std::vector<Row>& rows) {
   const std::optional<double> rhs = unilateral(contact.gap, settings, h, settings.baumgarte_speed);
-  if (!rhs) {
-    return;
-  }
+  if (!rhs) return;
   Row& row = rows.emplace_back(contact_row(model, contact, at));
   row.rhs = *rhs;
-  if (!wanted.of_points(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) {
-    rows.pop_back();
-  }
+  if (!wanted.of_points(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) rows.pop_back();
 }
 
 void append_plane_rows(const Model& model, const Kinematics& kin,

@@ -50,9 +50,7 @@ void append_hinge_rows(const Model& model, const State& state, const ConstraintS
     for (const double sign : {nearer, -nearer}) {
       const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
       const std::optional<double> rhs = unilateral(gap, settings, h, unbounded);
-      if (!rhs || !std::isfinite(gap) || !wanted(sign * wanted.v[k], *rhs)) {
-        continue;
-      }
+      if (!rhs || !std::isfinite(gap) || !wanted(sign * wanted.v[k], *rhs)) continue;
       Row& row = rows.emplace_back();
       row.kind = RowKind::limit;
       row.id = {.of = sign > 0 ? RowId::Of::lower : RowId::Of::upper, .first = k};
@@ -68,19 +66,13 @@ void append_cone_rows(const Model& model, const State& state, const ConstraintSe
     const auto angles = state.q.segment<2>(cone.dof + 1);
     // θ is at most the length of the vector of both angles and grows no faster. By this bound most
     // joints are far from their cones.
-    if (!wanted(-wanted.v.segment<2>(cone.dof).norm(), (angles.norm() - cone.limit) / h)) {
-      continue;
-    }
+    if (!wanted(-wanted.v.segment<2>(cone.dof).norm(), (angles.norm() - cone.limit) / h)) continue;
     const Bend bend = total_bend(angles[0], angles[1]);
     const std::optional<double> rhs = unilateral(cone.limit - bend.angle, settings, h, unbounded);
-    if (!rhs || bend.slope.isZero(0)) {
-      continue;
-    }
+    if (!rhs || bend.slope.isZero(0)) continue;
     Row& row = rows.emplace_back(cone_row(cone, bend, 0));
     row.rhs = *rhs;
-    if (!wanted(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) {
-      rows.pop_back();
-    }
+    if (!wanted(row_velocity(row, wanted.bodies, wanted.v), row.rhs)) rows.pop_back();
   }
 }
 

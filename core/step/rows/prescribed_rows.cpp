@@ -4,9 +4,7 @@ namespace hagfish {
 namespace {
 
 bool probably_binds(const Row& row, const WarmStart& warm) {
-  if (row.kind == RowKind::head) {
-    return true;
-  }
+  if (row.kind == RowKind::head) return true;
   return row.kind == RowKind::limit && row.unit() && warm.multiplier(row.id) > 0;
 }
 
@@ -45,7 +43,8 @@ bool release_all(StepSolution& step) {
 }
 
 bool release_pulling(StepSolution& step) {
-  return release_where(step, [&](Eigen::Index i) { return step.lambda[i] < step.rows[i].lower; });
+  return release_where(step,
+                       [&](Eigen::Index i) { return step.multipliers[i] < step.rows[i].lower; });
 }
 
 }  // namespace hagfish

@@ -12,12 +12,8 @@ template <class Columns>
 auto apart(const BetweenPoints& row, const Columns& columns) {
   Eigen::Matrix<double, Columns::RowsAtCompileTime, 1> sum;
   sum.setZero();
-  for (int k = 0; k < row.a.count; ++k) {
-    sum += row.a.weight[k] * columns.col(row.a.first + k);
-  }
-  for (int k = 0; k < row.b.count; ++k) {
-    sum -= row.b.weight[k] * columns.col(row.b.first + k);
-  }
+  for (int k = 0; k < row.a.count; ++k) sum += row.a.weight[k] * columns.col(row.a.first + k);
+  for (int k = 0; k < row.b.count; ++k) sum -= row.b.weight[k] * columns.col(row.b.first + k);
   return sum;
 }
 
@@ -74,7 +70,7 @@ std::string row_name(const Model& model, const Row& row) {
          (along_a(row) ? ", along t_a" : ", along t_b");
 }
 
-int place_in_step(const Model& model, const Row& row) {
+int order_in_step(const Model& model, const Row& row) {
   if (const OnJoint* joint = row.joint()) {
     return row.prescribed || row.kind == RowKind::head ? joint->dof - 2 * model.nv()
                                                        : -joint->dof - (row.unit() ? 1 : 2);

@@ -93,7 +93,7 @@ struct Row {
   int command = -1;   ///< index of the command, in rows of thigmotaxis
   double rhs = 0;     ///< d, cm/s or rad/s
   /// The part of λ of an impact, which acts at once. Half of the rest acts before the middle of the
-  /// step (midpoint rule, midpoint/impacts.hpp).
+  /// step (midpoint rule, midpoint/impacts.cpp).
   double impact = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
   double upper = std::numeric_limits<double>::infinity();
@@ -150,7 +150,7 @@ std::string row_name(const Model& model, const Row& row);
 /// The order of a step's rows, rising. Prescribed rows, and those of the head in any case, come
 /// first, by dof. The others follow from the tail on, by the last velocity that they involve. This
 /// order makes the columns of the dual problem a staircase.
-int place_in_step(const Model& model, const Row& row);
+int order_in_step(const Model& model, const Row& row);
 
 /// Whether a thigmotaxis row is along t_a; else it is along t_b.
 bool along_a(const Row& row);

@@ -42,7 +42,7 @@ inline constexpr auto row_kinds = [] {
 }();
 
 constexpr bool from_outside(RowKind kind) {
-  return row_kind_table[place_in(row_kind_table, kind)].from_outside;
+  return row_kind_table[index_in(row_kind_table, kind)].from_outside;
 }
 
 /// One T for each kind.

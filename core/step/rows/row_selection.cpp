@@ -49,9 +49,7 @@ void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& w
                  std::vector<Row>& rows) {
   const double h = in.scene.time.step;
   rows.clear();
-  if (in.control.clamp_head) {
-    append_head_rows(in.state, in.scene.constraints, h, rows);
-  }
+  if (in.control.clamp_head) append_head_rows(in.state, in.scene.constraints, h, rows);
   const bool displaced = place.segments != nullptr;
   append_thigmotaxis_rows(in.model, in.control.thigmotaxis,
                           {place.kin, displaced ? *place.segments : in.observation.segments,
@@ -67,9 +65,7 @@ void gather_rows(const StepInput& in, const StepPlace& place, const WarmStart& w
 }
 
 Row placed_row(const StepPlace& place, const PathRow& path_row) {
-  if (!path_row.contact) {
-    return path_row.row;
-  }
+  if (!path_row.contact) return path_row.row;
   Row row = path_row.row;
   if (place.segments != nullptr) {
     std::get<BetweenPoints>(row.shape).direction =

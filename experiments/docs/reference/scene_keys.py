@@ -12,7 +12,7 @@ HEAD = """# Keys of a scene
 `python3 experiments/docs/reference/scene_keys.py data/table1.toml experiments/docs/reference/scene_keys.md` makes this page from the comments of the file.
 Values are those of the scene `table1`. A scene that names a base holds only what differs.
 *(paper, PLACE)* marks a value that the paper states at that place. All other values are ours.
-`data/overhand_waypoints.toml` shows the keys of a script of positions, and `experiments/results/stability/scenes/` those of other starts.
+`data/overhand_waypoints.toml` shows the keys of a script of positions, `data/living_overhand.toml` a curvature program, and `experiments/results/stability/scenes/` other starts.
 Obstacles and curvature programs are in [data/README.md](../../../data/README.md).
 """
 SECTION = re.compile(r"\[([a-z_.]+)\]$")

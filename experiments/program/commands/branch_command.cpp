@@ -53,17 +53,17 @@ int branch_off(const BranchOptions& options, const std::string& typed) {
   const std::size_t frame = frame_up_to(h5, options.time, 0.5 * run.resolved.scene.time.step);
   const std::int64_t step = h5.integers("/trajectory/step").at(frame);
   Simulation sim = begin_again(run);
-  go_on_to(step, run.model, run.resolved.scene, sim);
+  go_on_to(step, run.resolved.model, run.resolved.scene, sim);
   const Eigen::VectorXd q = sim.now.state.q;
   const double time = time_of(sim, run.resolved.scene);
   const ResolvedScene resolved = logged_scene(h5, options.set);
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const Model& model = resolved.model;
   if (!options.set.empty()) {
-    check_sense(resolved, model, options.run.force);
+    check_sense(resolved, options.run.force);
     require_settings_act_from(sim, resolved.scene, options.set);
   }
   try {
-    branch(model, run.resolved, resolved, sim);
+    branch(run.resolved, resolved, sim);
   } catch (const std::invalid_argument& error) {
     throw InputError(
         fmt::format("{}: cannot branch at {:g} s: {}", options.log, time, error.what()));

@@ -4,11 +4,11 @@
 #include <cstdio>
 
 #include "core/input/input_text.hpp"
+#include "experiments/benchmarks/qp_table.hpp"
 #include "experiments/common/csv.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/qp/qp_table.hpp"
 
 namespace hagfish {
 namespace {

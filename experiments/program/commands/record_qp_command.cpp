@@ -5,13 +5,13 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "core/run/drive.hpp"
+#include "experiments/benchmarks/qp_set.hpp"
+#include "experiments/benchmarks/step_qp.hpp"
 #include "experiments/common/progress.hpp"
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/scene_sense.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/qp/qp_set.hpp"
-#include "experiments/qp/step_qp.hpp"
 
 namespace hagfish {
 namespace {
@@ -74,8 +74,8 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
   if (scene.time.rule != TimeRule::euler) {
     throw InputError("time.rule = midpoint: QPs can only be recorded by \"euler\"");
   }
-  const Model model = make_hagfish(resolved.specimen, scene);
-  check_sense(resolved, model, options.force);
+  const Model& model = resolved.model;
+  check_sense(resolved, options.force);
   QpSetWriter set(options.out, options.force, typed, scene_to_toml(scene, resolved.specimen));
   warn_of_odd_things(resolved);
   Recorder recorder(options, model, scene, set);

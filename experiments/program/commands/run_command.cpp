@@ -36,8 +36,8 @@ int run_anew(NewRunOptions options, const std::string& typed) {
   if (!options.until.empty()) set.push_back("time.until=" + options.until);
   const ResolvedScene resolved = scene_argument(options.scene, set);
   const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
-  check_sense(resolved, model, options.run.force);
+  const Model& model = resolved.model;
+  check_sense(resolved, options.run.force);
   require_settings_act(scene, options.set);
   const std::string qp = options.qp.empty() ? preset.qp : options.qp;
   if (options.run.out.empty()) {
@@ -65,12 +65,12 @@ int resume(NewRunOptions options, const std::string& typed) {
   const LoggedRun run = logged_run(h5);
   if (h5.root_text("status") == "complete") throw FileError(h5.file() + ": the run is complete");
   const Scene& scene = run.resolved.scene;
-  LogHeader header = log_header(run.resolved, run.model, run.qp, typed);
+  LogHeader header = log_header(run.resolved, run.resolved.model, run.qp, typed);
   header.level = level_of(h5);
   header.past = run.past;
   if (!run.past.empty()) header.branched_from = h5.root_text("branched_from");
   const std::string revision = h5.root_text("git_revision");
-  LogWriter log(options.run.out, true, header, run.model, scene, run.steps);
+  LogWriter log(options.run.out, true, header, run.resolved.model, scene, run.steps);
   if (!options.run.quiet) {
     say("{}: its scene is run again from the start; what there is, {:g} s, stays until then\n",
         printable(part_or_whole), static_cast<double>(run.steps) * scene.time.step);
@@ -79,7 +79,7 @@ int resume(NewRunOptions options, const std::string& typed) {
     say("hagfish: {}: begun by revision {}, made again by {}: it may come otherwise\n",
         printable(options.run.out), printable(revision), build_revision());
   }
-  return take_run(run.model, scene, begin_again(run), options.run, log);
+  return take_run(run.resolved.model, scene, begin_again(run), options.run, log);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct MjcfOptions {
 int mjcf(const MjcfOptions& options) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
+  const Model& model = resolved.model;
   const auto files = mjcf_files(model, scene.contact.least_arc, scene.time.step,
                                 options.clamp ? Head::clamped : Head::free);
   try {

@@ -32,7 +32,6 @@ const std::map<std::string, MujocoIntegrator> integrators = {
 /// A run about to begin.
 struct Beginning {
   ResolvedScene resolved;
-  Model model;
   Simulation sim;
 };
 
@@ -46,9 +45,8 @@ std::vector<std::string> changes(const MujocoRunOptions& options) {
 
 Beginning begin_scene(const MujocoRunOptions& options) {
   ResolvedScene resolved = scene_argument(options.scene, changes(options));
-  Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Simulation sim = start(model, resolved.scene, "active-set");
-  return {std::move(resolved), std::move(model), std::move(sim)};
+  Simulation sim = start(resolved.model, resolved.scene, "active-set");
+  return {std::move(resolved), std::move(sim)};
 }
 
 Beginning begin_slide(const MujocoRunOptions& options) {
@@ -59,28 +57,27 @@ Beginning begin_slide(const MujocoRunOptions& options) {
     throw FileError(options.from + ": has no slide of the knot");
   }
   ResolvedScene resolved = logged_scene(log.h5, changes(options));
-  Model model = make_hagfish(resolved.specimen, resolved.scene);
-  if (model.nv() != log.model.nv()) {
+  if (resolved.model.nv() != log.model.nv()) {
     throw InputError(options.from + ": its animal and the scene differ in model.bodies");
   }
   ControllerState controller;
   controller.phase = Phase::slide;
   controller.phase_start = log.time[static_cast<std::size_t>(first)];
   const auto step = std::llround(controller.phase_start / resolved.scene.time.step);
-  Simulation sim = start_from(model, resolved.scene, "active-set",
+  Simulation sim = start_from(resolved.model, resolved.scene, "active-set",
                               {log.q.row(first), log.qdot.row(first)}, controller, step);
-  return {std::move(resolved), std::move(model), std::move(sim)};
+  return {std::move(resolved), std::move(sim)};
 }
 
 int run_in_mujoco(const MujocoRunOptions& options, const std::string& typed) {
   Beginning begun = options.from.empty() ? begin_scene(options) : begin_slide(options);
   const Scene& scene = begun.resolved.scene;
-  check_sense(begun.resolved, begun.model, options.run.force);
-  MujocoLoop loop(begun.model, scene, options.mujoco);
-  LogHeader header = log_header(begun.resolved, begun.model, "active-set", typed);
+  check_sense(begun.resolved, options.run.force);
+  MujocoLoop loop(begun.resolved.model, scene, options.mujoco);
+  LogHeader header = log_header(begun.resolved, begun.resolved.model, "active-set", typed);
   header.simulator = fmt::format("MuJoCo {}", mj_versionString());
-  LogWriter log(options.run.out, options.run.force, header, begun.model, scene);
-  return take_run(begun.model, scene, std::move(begun.sim), options.run, log,
+  LogWriter log(options.run.out, options.run.force, header, begun.resolved.model, scene);
+  return take_run(begun.resolved.model, scene, std::move(begun.sim), options.run, log,
                   [&loop](Simulation& sim, StepRecord& record) { loop.take_step(sim, record); });
 }
 

@@ -42,7 +42,7 @@ int run_stress(const StressOptions& options) {
   std::vector<std::string> set = stress_overrides(options.method, options.step);
   set.insert(set.end(), options.set.begin(), options.set.end());
   const ResolvedScene resolved = scene_argument(options.scene, set);
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const Model& model = resolved.model;
   const StressResult result = stress(resolved.scene, model, options.method, options.cpu_limit);
   const CsvTable table = csv_of(options, resolved.scene.time.step, result);
   if (out) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/trefoil.hpp"
+#include "tests/unit/core/contact/trefoil.hpp"
 
 namespace hagfish::ends_test {
 

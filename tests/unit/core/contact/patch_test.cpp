@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "core/contact/ends.hpp"
-#include "tests/support/trefoil.hpp"
+#include "tests/unit/core/contact/trefoil.hpp"
 
 namespace hagfish::patch_test {
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "core/run/guard.hpp"
-#include "tests/support/controller_fixture.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/unit/core/control/controller_fixture.hpp"
 
 namespace hagfish::control_law_test {
 

@@ -3,7 +3,7 @@
 // undone.
 #include <gtest/gtest.h>
 
-#include "tests/support/controller_fixture.hpp"
+#include "tests/unit/core/control/controller_fixture.hpp"
 
 namespace hagfish::controller_test {
 

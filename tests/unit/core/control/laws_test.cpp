@@ -2,9 +2,11 @@
 #include "core/control/laws.hpp"
 
 #include <stdexcept>
+#include <string>
 
-#include "tests/support/controller_fixture.hpp"
+#include "core/input/scene_text.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/unit/core/control/controller_fixture.hpp"
 
 namespace hagfish::laws_test {
 
@@ -19,6 +21,14 @@ TEST(Laws, AreFoundByTheirNames) {
   scene.controller.law = "mine";
   EXPECT_EQ(error_of<std::invalid_argument>([&] { law_of(scene); }),
             "no control law is called \"mine\"");
+}
+
+TEST(Laws, HaveTablesThatScenesHave) {
+  const std::string text = scene_to_toml({}, Specimen());
+  for (const Law* law : laws()) {
+    const std::string heading = "[controller." + std::string(law->table) + "]";
+    EXPECT_TRUE(law->table.empty() || text.find(heading) != std::string::npos) << law->name;
+  }
 }
 
 struct Count {

@@ -1,5 +1,5 @@
 // Scenes that build on others: what is inherited, what replaces it, and what bad bases are told.
-#include "core/input/scene_base.hpp"
+#include "core/input/scene_parts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/input/run_time_text.hpp"
-#include "tests/support/members.hpp"
 #include "tests/support/plain_scene.hpp"
+#include "tests/unit/core/input/members.hpp"
 
 namespace hagfish::scene_text_test {
 

@@ -10,8 +10,7 @@
 namespace hagfish::scene_sense_test {
 
 std::string refusal(const std::vector<std::string>& changes, bool force = false) {
-  const ResolvedScene scene = stored_scene(changes);
-  return error_of([&] { check_sense(scene, make_hagfish(scene.specimen, scene.scene), force); });
+  return error_of([&] { check_sense(stored_scene(changes), force); });
 }
 
 TEST(SceneSense, TheMeasuredAnimalIsNotOdd) {

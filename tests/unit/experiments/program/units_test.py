@@ -77,6 +77,26 @@ def same(a: object, b: object) -> bool:
     return a == pytest.approx(b, rel=ROUNDING, abs=0) if isinstance(a, float) else a == b
 
 
+def keys_of(table: dict, path: str = "") -> set[str]:
+    """Dotted keys of all numbers and texts; an angle's is the same in degrees and radians."""
+    found = set()
+    for key, value in table.items():
+        name = f"{path}{key}"
+        found |= keys_of(value, f"{name}.") if isinstance(value, dict) else {re.sub("_(deg|rad)$", "", name)}
+    return found
+
+
+def test_each_key_of_a_scene_is_explained(tmp_path):
+    """The page of keys is made of the first file, and its head names the others."""
+    files = [ROOT / "data" / f"{name}.toml" for name in ("table1", "overhand_waypoints", "living_overhand")]
+    files += (ROOT / "experiments/results/stability/scenes").glob("*.toml")
+    explained = set().union(*(keys_of(tomllib.loads(file.read_text())) for file in files))
+    scene = scene_of(tmp_path, 'base = "table1"\n')
+    del scene["specimen"]
+    assert len(keys_of(scene)) > 130
+    assert keys_of(scene) - explained == set()
+
+
 def test_each_key_of_a_scene_is_read_in_its_unit(tmp_path):
     cgs, si, units = files("table1.toml", least=0.001)  # what is 0 would be the same in any unit
     assert units >= 40

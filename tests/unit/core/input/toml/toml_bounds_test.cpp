@@ -1,5 +1,5 @@
 // Texts that would take the TOML parser's stack or its time are refused before it sees them.
-#include "core/input/toml/toml_bounds.hpp"
+#include "core/input/toml/toml_document.hpp"
 
 #include <gtest/gtest.h>
 

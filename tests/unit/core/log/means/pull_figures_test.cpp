@@ -1,5 +1,5 @@
 // What the pull comes to, from means that are made by hand.
-#include "core/log/means/pull_figures.hpp"
+#include "core/log/means/log_means.hpp"
 
 #include <gtest/gtest.h>
 

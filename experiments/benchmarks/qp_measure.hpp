@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/qp/qp_set.hpp"
+#include "experiments/benchmarks/qp_set.hpp"
 #include "solvers/qp_reference.hpp"
 
 namespace hagfish {

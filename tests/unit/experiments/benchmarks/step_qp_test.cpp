@@ -1,5 +1,5 @@
 // QPs taken out of a run, in both forms.
-#include "experiments/qp/step_qp.hpp"
+#include "experiments/benchmarks/step_qp.hpp"
 
 #include <gtest/gtest.h>
 

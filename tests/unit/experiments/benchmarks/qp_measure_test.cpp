@@ -1,4 +1,4 @@
-#include "experiments/qp/qp_measure.hpp"
+#include "experiments/benchmarks/qp_measure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/qp/qp_table.hpp"
+#include "experiments/benchmarks/qp_table.hpp"
 
 #include <fmt/format.h>
 

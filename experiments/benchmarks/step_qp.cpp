@@ -1,4 +1,4 @@
-#include "experiments/qp/step_qp.hpp"
+#include "experiments/benchmarks/step_qp.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "experiments/qp/qp_set.hpp"
+#include "experiments/benchmarks/qp_set.hpp"
 
 #include <fmt/format.h>
 

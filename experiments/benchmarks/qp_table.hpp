@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiments/qp/qp_measure.hpp"
+#include "experiments/benchmarks/qp_measure.hpp"
 
 namespace hagfish {
 

@@ -1,4 +1,4 @@
-// A scene file with the scenes that it builds on, as one table.
+// The first and the last part of read_scene_source().
 #pragma once
 
 #include <string>
@@ -14,5 +14,10 @@ namespace hagfish {
 /// InputError for a base that is unknown, unreadable or no TOML, and for bases that form a circle.
 TableReader read_with_bases(SceneSource scene, std::vector<SceneSource>& sources,
                             const FileAccess* access);
+
+/// Checks what must hold between the keys of a scene, and between it and its animal, where each key
+/// by itself is in its range. Throws InputError, whose line names file, key and reason, by `root`,
+/// from which scene and specimen of `resolved` were read. Makes its model.
+void check_scene(const TableReader& root, ResolvedScene& resolved);
 
 }  // namespace hagfish

@@ -1,5 +1,5 @@
 // Sets of QPs, written and read back, and as others write them.
-#include "experiments/qp/qp_set.hpp"
+#include "experiments/benchmarks/qp_set.hpp"
 
 #include <gtest/gtest.h>
 
