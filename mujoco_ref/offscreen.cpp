@@ -252,7 +252,23 @@ void draw_bar(const ColourBar& bar, const View& view, const mjrContext& context)
   }
 }
 
+/// Above the line of text in the lower left corner. After mjr_render() as draw_bar.
+void draw_scale(const View& view, const mjrContext& context) {
+  constexpr int bottom = bar_gap + 2 * letter_height, thick = 4;
+  const double length = scale_bar(view);
+  const int wide = static_cast<int>(std::lround(length * view.scale));
+  mjr_rectangle({bar_gap, bottom, wide, thick}, 0, 0, 0, 1);
+  draw_words(fmt::format("{:g} cm", length), bar_gap, bottom + thick + bar_gap / 2, 0, view,
+             context);
+}
+
 }  // namespace
+
+double scale_bar(const View& view) {
+  const double most = view.width / 6.0 / view.scale;
+  const double decade = std::pow(10, std::floor(std::log10(most)));
+  return decade * (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1);
+}
 
 struct OffscreenRenderer::Parts {
   Parts(const mjModel& of, int width, int height, const PictureQuality& wanted)
@@ -312,6 +328,7 @@ Image OffscreenRenderer::draw(const std::vector<mjvGeom>& geoms, const View& vie
   mjr_render(whole, &scene, &context);
   if (bar != nullptr) draw_bar(*bar, view, context);
   if (!words.empty()) {
+    draw_scale(view, context);
     mjr_overlay(mjFONT_NORMAL, mjGRID_BOTTOMLEFT, whole, words.c_str(), nullptr, &context);
   }
   Image image{view.width, view.height, {}};

@@ -49,7 +49,10 @@ struct ColourBar {
   std::string title, least, most;                    ///< words above it, and below its ends
 };
 /// Height of the lower edge of a picture that a bar and its words take, px.
-inline constexpr int colour_bar_room = 76;
+inline constexpr int bar_room = 76;
+/// Length of the scale bar of a picture, cm: 1, 2 or 5 times a power of ten, a sixth of the
+/// picture's width at most.
+double scale_bar(const View& view);
 
 /// One OpenGL context for any number of pictures. Keep one at a time, in the thread that made it.
 class OffscreenRenderer {
@@ -66,8 +69,8 @@ class OffscreenRenderer {
   /// the view is larger than what the renderer was made for.
   Image render(const std::vector<mjvGeom>& geoms, const View& view);
   /// Draws these and a skin. It has as many points as skin_model() made the renderer's model for
-  /// (else std::invalid_argument). A line of text comes in the lower left corner unless it is
-  /// empty, and the bar, if any.
+  /// (else std::invalid_argument). A line of text, unless it is empty, comes in the lower left
+  /// corner, with a scale bar above it; and the colour bar, if any.
   Image render(const std::vector<mjvGeom>& geoms, const View& view, const Skin& skin,
                const std::string& words = "", const ColourBar* bar = nullptr);
 

@@ -104,8 +104,9 @@ Image FramePictures::draw(OffscreenRenderer& renderer, std::size_t frame, const 
   return renderer.render(obstacles(frame, true), view, skin(frame), words, bar_ ? &*bar_ : nullptr);
 }
 
-void FramePictures::fit(const Shown& shown, std::optional<PictureSize> size, View& view) const {
-  int room = bar_ ? colour_bar_room : 0;
+void FramePictures::fit(const Shown& shown, std::optional<PictureSize> size, View& view,
+                        bool words) const {
+  int room = bar_ || words ? bar_room : 0;
   if (size) {
     room = std::min(room, size->height / 3);  // small ones are for what they show
     hagfish::fit(shown, size->width, size->height - room, view);

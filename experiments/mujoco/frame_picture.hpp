@@ -40,8 +40,9 @@ class FramePictures {
   Image draw(OffscreenRenderer& renderer, std::size_t frame, const View& view,
              const std::string& words = "") const;
   /// The window of what is shown and little more, of 80 px/cm; or `size`, at the scale at which it
-  /// fits. With room for the colour bar, where there is one.
-  void fit(const Shown& shown, std::optional<PictureSize> size, View& view) const;
+  /// fits. With room for the colour bar, where there is one, and for `words` and their scale bar.
+  void fit(const Shown& shown, std::optional<PictureSize> size, View& view,
+           bool words = false) const;
 
  private:
   Skin skin(std::size_t frame) const;

@@ -1,9 +1,9 @@
 #include "experiments/program/told_sweep.hpp"
 
 #include <algorithm>
-#include <thread>
 
 #include "core/input/input_text.hpp"
+#include "experiments/common/cores.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/program/program.hpp"
 
@@ -29,9 +29,7 @@ bool run_told_sweep(const Grid& grid, const SweepPart& part, const SweepArgument
   SweepOptions options;
   options.folder = arguments.out;
   options.part = part;
-  options.threads = arguments.threads > 0
-                        ? arguments.threads
-                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  options.threads = arguments.threads > 0 ? arguments.threads : usable_cores();
   options.typed = typed;
   options.interrupted = interrupted;
   const std::size_t cells = part.cells(grid.size()).size();

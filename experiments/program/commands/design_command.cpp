@@ -1,12 +1,12 @@
 
 #include <algorithm>
 #include <sstream>
-#include <thread>
 
 #include "core/input/files/scene_reader.hpp"
 #include "core/input/files/text_file.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "experiments/common/cores.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/design/design.hpp"
 #include "experiments/design/soft_body.hpp"
@@ -20,7 +20,7 @@ constexpr const char* known_names = "3_1 to 8_21, A#B or A#-B of two of these, o
 struct DesignArguments {
   std::string knot, specimen, out, start;
   std::string budget = "15m";
-  int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  int threads = usable_cores();
   int seed = 1;
   bool animals = false, resume = false, quiet = false;
 };

@@ -77,7 +77,7 @@ int movie(const MovieOptions& options) {
        k += std::max<std::size_t>(1, frames.size() / window_frames)) {
     pictures.add(frames[k], shown);
   }
-  pictures.fit(shown, size, view);
+  pictures.fit(shown, size, view, true);
   const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
   const std::vector<std::int64_t> v2 = log.h5.integers("/knot/v2");
   const bool progress = !options.quiet && ::isatty(::fileno(stderr)) != 0;

@@ -10,7 +10,7 @@ for knot in overhand figure_eight double_overhand three_twist; do
     run=$out/runs/${knot}_$stiffness
     [[ -e $run.done ]] && continue
     flesh=()
-    [[ $stiffness == 0 ]] || flesh=(--set "flesh.stiffness=$stiffness" --set flesh.relaxation=0.015 --set flesh.spacing=0.212)
+    [[ $stiffness == 0 ]] || flesh=(--set "flesh.stiffness=$stiffness" --set flesh.relaxation=0.015 --set flesh.spacing=0.424)
     "$hagfish" run "living_$knot" --out "$run.h5" --qp active-set --force --quiet "${flesh[@]}" || (($? == 1)) # a result, too
     touch "$run.done"
   done

@@ -261,7 +261,14 @@ TEST(PictureTest, ASkinIsDrawnWhereItIsInItsColours) {
     EXPECT_EQ(pixel(x, 2), white) << x;
     EXPECT_EQ(pixel(x, -2), white) << x;
   }
-  EXPECT_NE(renderer.render({}, view, skin, "some words").rgb, image.rgb);
+  const Image film = renderer.render({}, view, skin, "some words");
+  EXPECT_EQ(scale_bar(view), 5);  // of 42.4 cm and its margin, a sixth is 7
+  int black = 0;                  // px along the scale bar
+  for (int x = 0; x < film.width; ++x) {
+    const std::size_t at = 3 * (static_cast<std::size_t>(film.height - 46) * film.width + x);
+    black += film.rgb[at] + film.rgb[at + 1] + film.rgb[at + 2] == 0 ? 1 : 0;
+  }
+  EXPECT_NEAR(black, 5 * view.scale, 1);
   EXPECT_EQ(renderer.render({}, view, skin).rgb, image.rgb);
   EXPECT_THROW(OffscreenRenderer(*skin_model(5, 8, 1).model(), 424, 100).render({}, view, skin),
                std::invalid_argument);
