@@ -176,6 +176,8 @@ def test_a_wrong_number_shows_its_line_and_the_run_goes_on(page):
     page.type("controller.cap", "-5")
     page.wait("!element('message').hidden", "no message")
     assert page.message() == "table1: --set controller.cap=-5: must be positive"
+    page.type("controller.cap", "0,5")
+    page.wait("element('message').textContent.includes('comma')", "no word of the comma")
     assert page.run("document.querySelector('[data-key=\"controller.cap\"]').getAttribute('aria-invalid')") == "true"
     then = page.run("page.log.last()")
     page.until(f"log.last() > {then} + 0.5", "it does not go on")
