@@ -204,4 +204,16 @@ std::map<std::string, std::string> mjcf_files(const Model& model, double least_a
   return files;
 }
 
+std::string flat_mjcf(const std::map<std::string, std::string>& files) {
+  std::string text = files.at(mjcf_root_file);
+  const std::string before = "<include file=\"", after = "\"/>\n";
+  for (std::size_t at = 0; (at = text.find(before, at)) != std::string::npos;) {
+    const std::size_t name = at + before.size(), end = text.find(after, name);
+    const std::string& bodies = files.at(text.substr(name, end - name));
+    const std::size_t first = bodies.find('\n') + 1, last = bodies.rfind("</mujocoinclude>");
+    text.replace(at, end + after.size() - at, bodies, first, last - first);
+  }
+  return text;
+}
+
 }  // namespace hagfish

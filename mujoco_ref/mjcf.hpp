@@ -35,4 +35,8 @@ enum class Head { free, clamped };
 std::map<std::string, std::string> mjcf_files(const Model& model, double least_arc, double h,
                                               Head head = Head::free);
 
+/// The same as one document, of mjcf_files(): for loaders without nested includes, as MuJoCo 3 is
+/// where there are tendons. Each body is one level deeper, and MuJoCo 2.2 reads no more than 96.
+std::string flat_mjcf(const std::map<std::string, std::string>& files);
+
 }  // namespace hagfish

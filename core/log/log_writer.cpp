@@ -49,7 +49,7 @@ void label_series(const SeriesList& series, Hdf5Writer& h5) {
 }  // namespace
 
 struct LogWriter::Contents {
-  Contents(Model of, const Scene& scene, LogLevel level, const fs::path& file)
+  Contents(Model of, const Scene& scene, LogLevel level, OutputFile& to)
       : model(std::move(of)),
         frames(frame_table(model, scene, level)),
         steps(step_table(scene, level)),
@@ -61,8 +61,9 @@ struct LogWriter::Contents {
         knot(scene.knot),
         time(scene.time),
         stride(frame_stride(scene.time)),
-        part(file),
-        next(file.string() + ".next") {
+        output(to),
+        part(to.partial()),
+        next(part.string() + ".next") {
     for (const SeriesList& table : {frames.series(), steps.series(), contacts.series(),
                                     with_rows ? rows.series() : SeriesList()}) {
       series.insert(series.end(), table.begin(), table.end());
@@ -138,7 +139,7 @@ struct LogWriter::Contents {
 
   /// FILE.part.next becomes FILE.part.
   void take_over() {
-    if (std::rename(next.c_str(), part.c_str()) != 0) fail(part, errno);
+    output.put(next);
     ahead = false;
   }
 
@@ -187,6 +188,7 @@ struct LogWriter::Contents {
   TimeSettings time;
   std::int64_t stride;                         // steps a frame
   std::map<std::string, std::string> changed;  // attributes of the root, for the next save
+  OutputFile& output;
   fs::path part, next;
   bool ahead = false;      // FILE.part.next has all of FILE.part, and more
   std::string lost;        // why rows are, that FILE.part does not have and that wait no more
@@ -204,7 +206,7 @@ std::int64_t frame_stride(const TimeSettings& time) {
 LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header,
                      const Model& model, const Scene& scene, std::optional<std::int64_t> steps)
     : output_(std::make_unique<OutputFile>(file, steps ? Existing::go_on : replaced_if(replace))),
-      contents_(std::make_unique<Contents>(model, scene, header.level, output_->partial())) {
+      contents_(std::make_unique<Contents>(model, scene, header.level, *output_)) {
   require_memory(hdf5_memory);
   Hdf5Writer h5;
   write_header(header, h5);
@@ -273,7 +275,7 @@ void LogWriter::finish(const std::string& status, const Simulation& sim) {
   Contents& c = *contents_;
   if (sim.step < c.spare) {
     throw FileError(fmt::format("{}: stays as it was: run again, it came to step {} of {}: {}",
-                                c.part.string(), sim.step, c.spare, status));
+                                c.output.earlier().string(), sim.step, c.spare, status));
   }
   try {
     c.changed["status"] = status;

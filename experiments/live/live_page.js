@@ -310,6 +310,10 @@ class Page {
 
   typed(field, input) {
     input.dataset.typed = "yes";
+    if (/\d,\d/.test(input.value)) { // in some languages decimals, in others thousands
+      this.refused({ what: "setting", text: `${field.words} ${input.value}: has a comma; decimals follow a point, as in 0.5` });
+      return;
+    }
     let value = literal(input.value);
     if (field.list && !value.startsWith('"')) { // the whole list by one factor; of nothing but 0 the same everywhere
       const before = this.values[field.key], largest = largestOf(before);

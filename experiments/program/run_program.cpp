@@ -1,5 +1,8 @@
 #include "experiments/program/run_program.hpp"
 
+#include <sys/resource.h>
+
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <string>
@@ -59,10 +62,23 @@ int run_here(int argc, char** argv) {
   }
 }
 
+/// Whether the stack is large enough, or could be made so.
+bool stack_suffices() {
+  constexpr rlim_t least = 1 << 21;  // bytes: MuJoCo reads the bodies of a chain, 400, in 0.9 MB
+  rlimit stack{};
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= least) return true;
+  stack = {least, std::max(stack.rlim_max, least)};  // scripts have it, too
+  return ::setrlimit(RLIMIT_STACK, &stack) == 0;
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv) {
   open_standard_streams();
+  if (!stack_suffices()) {
+    say("hagfish: the stack is too small, and may not grow: 2 MB are needed (ulimit -s 2048)\n");
+    return exit_code::failed;
+  }
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told by its write
   const auto work = [&] { return run_here(argc, argv); };
   const std::string files = hdf5_arguments(argc, argv);

@@ -35,12 +35,19 @@ std::string path_of(const char* name, const py::object& given, const char* wante
   return path;
 }
 
+/// Throws TypeError for a masked array: what it masks would be taken for numbers.
+void refuse_masked(const std::string& name, const py::handle& given) {
+  if (!py::isinstance(given, py::module_::import("numpy").attr("ma").attr("MaskedArray"))) return;
+  throw py::type_error(name + " is a masked array: give one without a mask, as by filled()");
+}
+
 /// The value of `key` as --set has it: numbers so that the same doubles are read, and text as it
 /// is, but quoted `within` an array.
 std::string setting_text(const std::string& key, py::object value, bool within) {
   const auto of = [](const char* module, const char* name) -> py::object {
     return py::module_::import(module).attr(name);
   };
+  refuse_masked("set: " + key, value);
   if (py::isinstance<py::array>(value)) value = value[py::tuple()];  // a scalar has no items
   if (py::isinstance(value, of("os", "PathLike"))) value = of("os", "fspath")(value);
   if (py::isinstance<py::str>(value)) {
@@ -124,6 +131,7 @@ PythonRun python_run(const py::object& scene, const py::object& set, const py::o
 }
 
 Eigen::VectorXd numbers(const char* name, const py::object& given, Eigen::Index size) {
+  refuse_masked(name, given);
   const py::array array = py::module_::import("numpy").attr("asarray")(given);
   if (std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos) {
     throw py::type_error(fmt::format("{} must be real numbers, not {} of dtype {}", name,

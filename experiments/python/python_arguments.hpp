@@ -16,8 +16,8 @@ PythonRun python_run(const pybind11::object& scene, const pybind11::object& set,
                      const pybind11::object& log, bool force);
 
 /// The numbers of `given`, an array or a sequence of `size` numbers, of any number where that is
-/// -1; `name` stands for them in errors. Throws TypeError for what are no real numbers, and
-/// ValueError for another shape.
+/// -1; `name` stands for them in errors. Throws TypeError for what are no real numbers or may be
+/// masked, and ValueError for another shape.
 Eigen::VectorXd numbers(const char* name, const pybind11::object& given, Eigen::Index size);
 
 /// Keys and values, a dict, as --set has them. Throws TypeError, and InputError for a value that is

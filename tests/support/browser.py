@@ -79,9 +79,9 @@ class Browser:
                 return message["result"]
             self._note(message)
 
-    def open(self, page: Path) -> None:
-        """Opens a file, as by a double click, and waits until it is loaded."""
-        self.call("Page.navigate", url=page.absolute().as_uri())
+    def open(self, page: Path | str) -> None:
+        """Opens a file, as by a double click, or an address, and waits until it is loaded."""
+        self.call("Page.navigate", url=page if isinstance(page, str) else page.absolute().as_uri())
         end = time.monotonic() + PATIENCE
         while self.run("document.readyState") != "complete":
             if time.monotonic() > end:

@@ -43,16 +43,12 @@ OutputFile::OutputFile(const fs::path& file, Existing existing)
     throw FileError(file_.string() + ": already exists (--force replaces it)");
   }
   take_lock();
-  std::string reason = obstacle();
-  if (reason.empty() && existing == Existing::go_on && fs::exists(file_, error) &&
-      std::rename(file_.c_str(), partial_.c_str()) != 0) {
-    reason = file_.string() + ": cannot be renamed: " + std::strerror(errno);
-  }
-  if (!reason.empty()) {
+  if (const std::string reason = obstacle(); !reason.empty()) {
     fs::remove(lock_, error);
     ::close(lock_descriptor_);
     throw FileError(reason);
   }
+  whole_ = existing == Existing::go_on && fs::exists(file_, error);
 }
 
 std::string OutputFile::obstacle() const {
@@ -106,6 +102,15 @@ bool OutputFile::is_ours() const { return ::getpid() == process_; }
 OutputFile::~OutputFile() {
   if (is_ours()) ::unlink(lock_.c_str());
   ::close(lock_descriptor_);
+}
+
+void OutputFile::put(const fs::path& made) {
+  // FILE goes first: whatever ends the process, there are never both.
+  if ((whole_ && std::rename(file_.c_str(), partial_.c_str()) != 0) ||
+      std::rename(made.c_str(), partial_.c_str()) != 0) {
+    throw FileError(partial_.string() + ": cannot be saved: " + std::strerror(errno));
+  }
+  whole_ = false;
 }
 
 void OutputFile::publish() {

@@ -13,7 +13,7 @@ namespace hagfish {
 enum class Existing {
   refuse,   ///< it stays
   replace,  ///< it is replaced
-  go_on     ///< FILE.part is gone on with, or FILE, which becomes FILE.part
+  go_on     ///< FILE.part is gone on with, or FILE: it stays until there is more (put())
 };
 
 constexpr Existing replaced_if(bool force) { return force ? Existing::replace : Existing::refuse; }
@@ -33,8 +33,13 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::filesystem::path& partial() const { return partial_; }
+  /// What is gone on with, until put(): FILE or FILE.part.
+  const std::filesystem::path& earlier() const { return whole_ ? file_ : partial_; }
   /// Whether this is no copy in a forked child.
   bool is_ours() const;
+
+  /// Makes the file `made` FILE.part, in place of what is gone on with. Throws FileError.
+  void put(const std::filesystem::path& made);
 
   /// Gives FILE.part its name. Throws FileError, and keeps FILE.part, where that fails or a FILE
   /// that is not to be replaced has appeared meanwhile.
@@ -47,6 +52,7 @@ class OutputFile {
 
   std::filesystem::path file_, partial_, lock_;
   Existing existing_;
+  bool whole_ = false;  // FILE is gone on with
   int lock_descriptor_ = -1;
   int process_;
 };

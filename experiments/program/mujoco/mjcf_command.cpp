@@ -23,6 +23,7 @@ struct MjcfOptions {
   std::string out;               ///< folder to write to, made where it is missing
   std::vector<std::string> set;  ///< KEY=VALUE overrides
   bool clamp = false;            ///< weld the head to the world
+  bool flat = false;             ///< all in one file
   bool force = false;            ///< replace existing files
 };
 
@@ -30,13 +31,14 @@ int mjcf(const MjcfOptions& options) {
   const ResolvedScene resolved = scene_argument(options.scene, options.set);
   const Scene& scene = resolved.scene;
   const Model& model = resolved.model;
-  const auto files = mjcf_files(model, scene.contact.least_arc, scene.time.step,
-                                options.clamp ? Head::clamped : Head::free);
+  auto files = mjcf_files(model, scene.contact.least_arc, scene.time.step,
+                          options.clamp ? Head::clamped : Head::free);
   try {
     const MujocoModel loaded(files);
   } catch (const std::runtime_error& error) {
     throw InputError(options.scene + ": MuJoCo rejects the model: " + error.what());
   }
+  if (options.flat) files = {{mjcf_root_file, flat_mjcf(files)}};
   std::error_code error;
   fs::create_directories(options.out, error);
   if (error) {
@@ -61,6 +63,7 @@ void add_mjcf(Program& program) {
   mjcf_app->add_option("--out", options->out, "folder to write to")->required();
   mjcf_app->add_option("--set", options->set, set_help)->allow_extra_args(false);
   mjcf_app->add_flag("--clamp", options->clamp, "weld the head to the world");
+  mjcf_app->add_flag("--flat", options->flat, "all in one file, without includes");
   mjcf_app->add_flag("--force", options->force, "replace existing files");
   mjcf_app->callback([options, &program] { program.code = mjcf(*options); });
 }

@@ -304,6 +304,22 @@ TEST(MujocoModel, PassesOnWhatMujocoRejects) {
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
 
+// As far as MuJoCo 2.2 reads one file: its bodies, springs and excludes are those of the files.
+TEST(Mjcf, OneFileHoldsTheSameModel) {
+  const auto files = mjcf_files(hagfish(96), least_arc, timestep);
+  ASSERT_GT(files.size(), 3u);
+  const MujocoModel of_files(files), of_one({{mjcf_root_file, flat_mjcf(files)}});
+  const mjModel& a = *of_files.model();
+  const mjModel& b = *of_one.model();
+  std::vector<char> bytes[2];
+  for (const mjModel* m : {&a, &b}) {
+    std::vector<char>& of = bytes[m == &b];
+    of.resize(static_cast<std::size_t>(mj_sizeModel(m)));
+    mj_saveModel(m, nullptr, of.data(), static_cast<int>(of.size()));
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+}
+
 TEST(Mjcf, LeavesConesOutAndSaysSo) {
   Model model = hagfish(10);
   EXPECT_EQ(mjcf_files(model, least_arc, timestep).at(mjcf_root_file).find("Left out"),

@@ -170,28 +170,38 @@ TEST_F(LogTest, KeepsWhatWasSavedUnlessFinished) {
 
 TEST_F(LogTest, WhatThereIsOfARunStaysUntilItHasComeAsFarAgain) {
   const fs::path file = folder / "run.h5", part = folder / "run.h5.part";
-  {
-    LogWriter log(file, false, header, model, scene);
-    write(log, 23, 1000);  // a save at most steps; nothing finishes it
-  }
-  const auto steps = [&] { return static_cast<int>(Hdf5Reader(part).shape("/steps/kkt")[0]); };
-  const int had = steps();
-  ASSERT_GT(had, 15);
-  for (const int more : {7, had - 1}) {
+  for (const fs::path& earlier : {part, file}) {  // of a kill, of an interrupt
+    {
+      sim = start(model, scene, "ipopt");
+      LogWriter log(file, false, header, model, scene);
+      write(log, 23, 1000);  // a save at most steps
+      if (earlier == file) log.finish("failed: interrupted", sim);
+    }
+    const auto steps = [](const fs::path& of) {
+      return static_cast<int>(Hdf5Reader(of).shape("/steps/kkt")[0]);
+    };
+    const int had = steps(earlier);
+    ASSERT_GT(had, 15);
+    for (const int more : {7, had - 1}) {
+      sim = start(model, scene, "ipopt");
+      LogWriter log(file, false, header, model, scene, had);
+      write(log, more, 1000);
+      EXPECT_EQ(steps(earlier), had) << more;
+      const auto finish = [&] { log.finish("failed: interrupted", sim); };
+      EXPECT_EQ(error_of<FileError>(finish).find(earlier.string() + ": stays as it was"), 0u);
+      EXPECT_EQ(steps(earlier), had) << more;
+      EXPECT_NE(fs::exists(part), fs::exists(file)) << more;
+    }
+    EXPECT_FALSE(fs::exists(folder / "run.h5.part.next"));
     sim = start(model, scene, "ipopt");
     LogWriter log(file, false, header, model, scene, had);
-    write(log, more, 1000);
-    EXPECT_EQ(steps(), had) << more;
-    EXPECT_THROW(log.finish("failed: interrupted", sim), FileError);
-    EXPECT_EQ(steps(), had) << more;
+    write(log, had + 1, 1000);
+    EXPECT_GE(steps(part), had);
+    EXPECT_FALSE(fs::exists(file));
+    log.finish("complete", sim);
+    EXPECT_FALSE(fs::exists(part));
+    fs::remove(file);
   }
-  EXPECT_FALSE(fs::exists(folder / "run.h5.part.next"));
-  sim = start(model, scene, "ipopt");
-  LogWriter log(file, false, header, model, scene, had);
-  write(log, had + 1, 1000);
-  EXPECT_GE(steps(), had);
-  log.finish("complete", sim);
-  EXPECT_FALSE(fs::exists(part));
 }
 
 // However little there is of it: a run that goes on replaces no other file.

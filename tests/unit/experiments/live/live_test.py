@@ -3,12 +3,15 @@
 Builds: HAGFISH_WEB=1 bash experiments/setup.sh; what it is compared with: cmake --build --preset portable --target live_digest.
 """
 
+import functools
 import json
 import os
 import re
 import shutil
 import subprocess
+import threading
 import time
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
@@ -52,6 +55,40 @@ def test_the_digest_noted_for_this_code_is_its_own(scene):
     if noted is None:
         pytest.skip("not noted: bash experiments/reproduce.sh --digest")
     assert digest_of(NATIVE, *scene.split()).split()[0] == noted[scene]
+
+
+DIGEST = """async ({ simulator, Digest }) => {
+  const run = await simulator(), digest = new Digest();
+  run.start({ name: "table1", text: run.builtin("table1.toml"), set: ["time.duration=1"] });
+  run.calls.live_animal();
+  const [step, interval] = run.array("clock"), steps = Math.round(interval / step);
+  do { run.calls.live_frame(); digest.add(run.array("q")); } while (run.calls.live_advance(steps) === steps);
+  return digest.text();
+}"""
+
+
+@needs_node
+@pytest.mark.skipif(shutil.which("npm") is None, reason="no npm here")
+def test_the_package_runs_where_its_tarball_is_installed(tmp_path):
+    """In an empty folder, by node and, where there is one, in a page."""
+    there = digest_of(NODE, ROOT / "experiments/live/digest.mjs", WEB / "hagfish.wasm", "table1", "time.duration=1")
+    told = {"cwd": tmp_path, "check": True, "capture_output": True, "text": True}
+    tarball = subprocess.run(["npm", "pack", WEB / "npm"], **told).stdout.strip()
+    subprocess.run(["npm", "install", "--offline", tmp_path / tarball], **told)
+    (tmp_path / "run.mjs").write_text(f'import * as hagfish from "hagfish"; console.log(await ({DIGEST})(hagfish));')
+    assert subprocess.run([NODE, "run.mjs"], **told).stdout.strip() == there
+    if CHROMIUM is None:
+        return
+    (tmp_path / "page.html").write_text("<!DOCTYPE html>")
+    served = ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(SimpleHTTPRequestHandler, directory=tmp_path))
+    threading.Thread(target=served.serve_forever, daemon=True).start()
+    browser = Browser(tmp_path)
+    try:
+        browser.open(f"http://127.0.0.1:{served.server_port}/page.html")
+        assert browser.run(f'import("./node_modules/hagfish/hagfish.mjs").then({DIGEST})') == there
+    finally:
+        browser.close()
+        served.shutdown()
 
 
 class Live(Browser):
@@ -176,6 +213,8 @@ def test_a_wrong_number_shows_its_line_and_the_run_goes_on(page):
     page.type("controller.cap", "-5")
     page.wait("!element('message').hidden", "no message")
     assert page.message() == "table1: --set controller.cap=-5: must be positive"
+    page.type("controller.cap", "0,5")
+    page.wait("element('message').textContent.includes('comma')", "no word of the comma")
     assert page.run("document.querySelector('[data-key=\"controller.cap\"]').getAttribute('aria-invalid')") == "true"
     then = page.run("page.log.last()")
     page.until(f"log.last() > {then} + 0.5", "it does not go on")

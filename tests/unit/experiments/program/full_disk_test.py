@@ -1,6 +1,7 @@
 """Full disks and quotas of several sizes: a command works, or says in one line which file it could not write, with exit
 1, and leaves nothing half-written. A limit on a file's size stands for the disk where there are no rights to mount one."""
 
+import ctypes
 import os
 import resource
 import shutil
@@ -111,6 +112,18 @@ def test_a_log_that_memory_does_not_hold_is_one_line(folder):
             told += 1
             assert done.stderr.count("\n") == 1 and "memory" in done.stderr, done
     assert told
+
+
+def test_a_small_stack_grows_or_is_told(folder):
+    def stack(hard):
+        ctypes.CDLL(None).prctl(24, 24)  # drops CAP_SYS_RESOURCE, by which the superuser may raise the limit
+        resource.setrlimit(resource.RLIMIT_STACK, (64 << 10, hard))
+
+    free = outcome(folder, "check", "a.h5")
+    assert outcome(folder, "check", "a.h5", preexec_fn=lambda: stack(8 << 20)).stdout == free.stdout != ""
+    told = outcome(folder, "check", "a.h5", preexec_fn=lambda: stack(64 << 10))
+    line = "hagfish: the stack is too small, and may not grow: 2 MB are needed (ulimit -s 2048)\n"
+    assert (told.returncode, told.stdout, told.stderr) == (1, "", line)
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full")

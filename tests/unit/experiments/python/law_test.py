@@ -144,6 +144,11 @@ def test_arrays_of_what_are_no_real_numbers_are_refused(sim, value):
     for value in (np.zeros((155, 1)), 3.0):
         with pytest.raises(ValueError, match=re.escape(f"torque has shape {np.shape(value)}, but shape (155,)")):
             control.torque = value
+    masked = np.ma.masked_equal(np.arange(155), 7)  # numbers wherever it is taken for an array
+    with pytest.raises(TypeError, match="torque is a masked array: give one without a mask, as by filled()"):
+        control.torque = masked
+    with pytest.raises(TypeError, match="set: controller.slide_head is a masked array"):
+        hagfish.Simulation("table1", set={"controller.slide_head": np.ma.masked_equal([5.0, 7.0], 7)})
     view, control.torque = control.torque, np.arange(155, dtype="f4")
     assert_array_equal(view, np.arange(155))
 
