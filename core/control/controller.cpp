@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/knot/knot_words.hpp"
+
 namespace hagfish {
 namespace {
 
@@ -30,15 +32,15 @@ void look_at_knot(const Scene& scene, const Observation& observation, double tim
   }
 }
 
-/// "a 3_1, tied since 8.64 s", or "no knot" with the last knot before.
+/// "a knot (overhand, 3_1), tied since 8.64 s", or "no knot" with the last knot before.
 std::string knot_seen_text(const ControllerState& controller) {
   if (controller.knot.type != KnotInvariants{}) {
-    return fmt::format("a {}, tied since {:.2f} s", knot_name(controller.knot.type),
+    return fmt::format("{}, tied since {:.2f} s", a_knot(knot_name(controller.knot.type)),
                        controller.knot_from);
   }
   const PastKnot& past = controller.past;
   if (past.type == KnotInvariants{}) return "no knot (none was tied before)";
-  return fmt::format("no knot (there was a {} from {:.2f} to {:.2f} s)", knot_name(past.type),
+  return fmt::format("no knot (there was {} from {:.2f} to {:.2f} s)", a_knot(knot_name(past.type)),
                      past.from, past.to);
 }
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-#include "core/knot/knot.hpp"
+#include "core/knot/knot_words.hpp"
 
 namespace hagfish {
 namespace {
@@ -48,6 +48,21 @@ std::string knot_name(const KnotInvariants& type) {
       std::ranges::find(table, type, [](const NamedKnot& knot) { return knot.type; });
   if (found != table.end()) return found->name;
   return invariants_text(type);
+}
+
+std::string knot_words(std::string_view name) {
+  constexpr std::pair<std::string_view, const char*> called[] = {{"0_1", "no knot"},
+                                                                 {"3_1", "overhand, 3_1"},
+                                                                 {"4_1", "figure-eight, 4_1"},
+                                                                 {"5_1", "double overhand, 5_1"},
+                                                                 {"5_2", "three-twist, 5_2"}};
+  const auto* const found =
+      std::ranges::find(called, name, [](const auto& knot) { return knot.first; });
+  return found != std::end(called) ? found->second : std::string(name);
+}
+
+std::string a_knot(std::string_view name) {
+  return name == "0_1" ? knot_words(name) : "a knot (" + knot_words(name) + ")";
 }
 
 std::optional<KnotInvariants> knot_called(std::string_view name) {

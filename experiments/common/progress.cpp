@@ -1,4 +1,5 @@
 #include "experiments/common/progress.hpp"
+#include "core/knot/knot_words.hpp"
 #include "experiments/common/terminal.hpp"
 
 #include <fmt/format.h>
@@ -89,8 +90,8 @@ void Progress::show_change(const StepRecord& record) {
   }
   phase_ = now.phase;
   type_ = now.knot.type;
-  say("{}{:<8} t = {:6.2f} s  knot {}  {}{}\n", terminal_ ? "\r" : "", phase_name(phase_),
-      record.time, knot_name(type_), span_text(now), terminal_ ? "\x1b[K" : "");
+  say("{}{:<8} t = {:6.2f} s  {}  {}{}\n", terminal_ ? "\r" : "", phase_name(phase_), record.time,
+      knot_words(type_), span_text(now), terminal_ ? "\x1b[K" : "");
 }
 
 void Progress::show(const StepRecord& record) {
@@ -105,9 +106,9 @@ void Progress::show(const StepRecord& record) {
   next_ = wall + (terminal_ ? terminal_interval : file_interval);
   const double speed = record.time / wall;
   const double left = std::max(0.0, estimated_end(record) - record.time) / speed;
-  say("{}{:<8} t = {:6.2f} s  {:5.2f} x real time  {:3.0f} s left  knot {}  {}{}",
-      terminal_ ? "\r" : "", phase_name(record.controller.phase), record.time, speed, left,
-      knot_name(record.controller.knot.type), span_text(record.controller),
+  say("{}{:<8} t = {:6.2f} s  {:5.2f} x real time  {:3.0f} s left  {}  {}{}", terminal_ ? "\r" : "",
+      phase_name(record.controller.phase), record.time, speed, left,
+      knot_words(record.controller.knot.type), span_text(record.controller),
       terminal_ ? "   \x1b[K" : "\n");
   std::fflush(stderr);
   drawn_ = true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/knot/knot_words.hpp"
 #include "experiments/common/csv.hpp"
 #include "experiments/design/living_body.hpp"
 
@@ -29,12 +30,13 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
   }
   std::string page = fmt::format(
       "# {0}, tied by {1}\n\n"
-      "`hagfish design {0}` searched for this program from nothing. {2}.\n\n"
+      "`hagfish design {5}` searched for this program from nothing. {2}.\n\n"
       "    hagfish run {3} --out again.h5   # the animal ties and slides the knot, and loses it\n"
       "    hagfish run {3} --out reflex.h5{4}   # the same by the reflex\n"
       "    hagfish check knot.h5            # audits the run that is here already\n"
       "    hagfish picture knot.h5 --out knot.png",
-      options.knot, scene.specimen.name, outcome.in_words(), scene_file, by_reflex);
+      knot_words(options.knot), scene.specimen.name, outcome.in_words(), scene_file, by_reflex,
+      options.knot);
   for (const double time : strip_times(run)) page += fmt::format(" --time {:.2f}", time);
   page += "\n\n";
   if (!strip.empty()) {
@@ -87,7 +89,8 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
       "with all that follows.\n\n"
       "| type tied | paths |\n|---|---|\n",
       outcome.tries, outcome.time.cpu, outcome.time.wall);
-  for (const auto& [type, count] : outcome.types) page += fmt::format("| {} | {} |\n", type, count);
+  for (const auto& [type, count] : outcome.types)
+    page += fmt::format("| {} | {} |\n", knot_words(type), count);
   std::map<std::string, int> reasons;
   for (const Candidate& candidate : outcome.candidates) {
     if (!candidate.shortcoming.empty()) ++reasons[candidate.shortcoming];

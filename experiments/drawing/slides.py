@@ -37,7 +37,7 @@ class Slide:
 
 def cause(status: str) -> str:
     """Why a run stopped, without its numbers."""
-    text = status.removeprefix("failed: ").split(" at step ")[0].split(",")[0]
+    text = re.split(r",(?![^(]*\))", status.removeprefix("failed: ").split(" at step ")[0])[0]  # at a comma that no bracket holds
     return re.sub(r" is [\d.]+ \w+ past", " went past", re.sub(r"^body \d+", "a body", text))
 
 

@@ -198,7 +198,10 @@ class TableReader {
     if (any && scale_matters && reading_.pixels_per_cm <= 0) {
       fail("has columns in px and columns in a unit of length: needs --scale, px/cm");
     }
-    if (!any && (arc == nullptr || !arc->pixels)) return;
+    if (!any && (arc == nullptr || !arc->pixels)) {
+      if (reading_.pixels_per_cm > 0) fail("--scale: has no column in px: leave it out");
+      return;
+    }
     const double px = any ? pixel_size(reading_, table_.unit) : 1;
     for (LengthColumn* column : columns) {
       if (column->pixels) column->size = px;
@@ -432,8 +435,9 @@ double frame_time(const std::string& file, const FilmReading& reading, double fr
 }
 
 void ask_unit(const std::string& file, const FilmReading& reading) {
-  if (reading.unit_cm > 0 || reading.pixels_per_cm > 0) return;
-  throw_input_error(file + ": has x, y and z but names no unit: needs --unit cm, mm or m");
+  if (reading.unit_cm > 0) return;
+  throw_input_error(file + ": has x, y and z but names no unit: needs --unit cm, mm or m" +
+                    (reading.pixels_per_cm > 0 ? "; --scale is for pixels" : ""));
 }
 
 double pixel_size(const FilmReading& reading, std::string& unit) {

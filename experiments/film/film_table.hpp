@@ -45,7 +45,7 @@ std::size_t chosen_individual(const std::string& file, const std::vector<std::st
 /// The time of a film's frame, s. Throws InputError where there is no --fps.
 double frame_time(const std::string& file, const FilmReading& reading, double frame);
 
-/// Throws InputError where nothing says the unit of a file in space: neither --unit nor --scale.
+/// Throws InputError where no --unit says that of a file in space.
 void ask_unit(const std::string& file, const FilmReading& reading);
 
 /// cm in a px, or 1 where nothing says it: then `unit` is px.

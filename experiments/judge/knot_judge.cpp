@@ -7,7 +7,7 @@
 
 #include "core/chain/skin_fold.hpp"
 #include "core/input/run_time_text.hpp"
-#include "core/knot/knot.hpp"
+#include "core/knot/knot_words.hpp"
 #include "core/knot/writhe.hpp"
 
 namespace hagfish {
@@ -113,9 +113,9 @@ bool KnotJudge::shows(Phase phase) const {
 std::string KnotJudge::never_held() const {
   const std::string& expected = scene_.expect.knot;
   const auto tied = std::ranges::count(frames_, expected, &Seen::type);
-  return tied == 0 ? "never tied: no frame with a " + expected
-                   : fmt::format("never tightened, though a {} at {} of {} frames", expected, tied,
-                                 frames_.size());
+  return tied == 0 ? "never tied: no frame with " + a_knot(expected)
+                   : fmt::format("never tightened, though {} at {} of {} frames", a_knot(expected),
+                                 tied, frames_.size());
 }
 
 Finding KnotJudge::held() const {
@@ -126,13 +126,13 @@ Finding KnotJudge::held() const {
     if (!holds_knot(seen.phase)) continue;
     kept += seen.type == expected ? 1 : 0;
     if (lost.empty() && seen.type != expected) {
-      lost = fmt::format(", first {} at {:.3f} s", seen.type, seen.time);
+      lost = fmt::format(", first {} at {:.3f} s", knot_words(seen.type), seen.time);
     }
   }
   return all_of("knot held", kept, held_, "frames",
                 held_ == 0 ? never_held()
                            : fmt::format("{} at {} of {} frames from tightening to release{}",
-                                         expected, kept, held_, lost));
+                                         knot_words(expected), kept, held_, lost));
 }
 
 /// When a time of the run came, s: at the first frame or later, infinite where it never did.
@@ -162,9 +162,9 @@ std::vector<Finding> KnotJudge::types_through_time() const {
       }
     }
     const std::string what =
-        frames > 0 ? fmt::format("{} at {} of {} frames", stretch.type, kept, frames)
-                   : fmt::format("the log, of {:g} to {:g} s, has no frame to be a {}", begins,
-                                 ends, stretch.type);
+        frames > 0 ? fmt::format("{} at {} of {} frames", knot_words(stretch.type), kept, frames)
+                   : fmt::format("the log, of {:g} to {:g} s, has no frame with {}", begins, ends,
+                                 a_knot(stretch.type));
     const auto told = [this](const RunTime& time, double clock) {
       const std::string text = run_time_text(time);
       if (time.after && phase_order(first_phase()) > phase_order(*time.after)) {
@@ -227,8 +227,8 @@ Finding KnotJudge::head_out() const {
       return {
           "head out",
           tied && !of_itself,
-          fmt::format("{} at {:.2f} s, with a {}{}; its end is {:.2f} cm in front of the {}",
-                      tied ? "it came" : "the knot was gone", seen.time, seen.type,
+          fmt::format("{} at {:.2f} s, with {}{}; its end is {:.2f} cm in front of the {}",
+                      tied ? "it came" : "the knot was gone", seen.time, a_knot(seen.type),
                       of_itself ? ", after the animal had let go" : "", seen.before, expect.out_of),
           fmt::format("{}", seen.before),
           "0",
@@ -250,13 +250,14 @@ std::vector<Finding> KnotJudge::findings() const {
   };
   if (shows_knot) findings.push_back(held());
   if (scene_.start.phase == Phase::form && !branch_) {
-    findings.push_back({"unknot at start", first == "0_1", first, first, "0_1", ""});
+    findings.push_back({"unknot at start", first == "0_1", knot_words(first), first, "0_1", ""});
   }
   if (reaches(Phase::free)) {
     const bool ended = frames_.back().phase == Phase::free;
-    findings.push_back({"unknot at end", ended && last == "0_1",
-                        last + (ended ? "" : ", but the run ended before the knot was off"), last,
-                        "0_1", ""});
+    findings.push_back(
+        {"unknot at end", ended && last == "0_1",
+         knot_words(last) + (ended ? "" : ", but the run ended before the knot was off"), last,
+         "0_1", ""});
   }
   append(types_through_time());
   if (shows_knot && expect.hand != Hand::any) findings.push_back(hand());

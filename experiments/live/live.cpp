@@ -12,7 +12,7 @@
 #include "core/input/builtin_files.hpp"
 #include "core/input/input_text.hpp"
 #include "core/input/toml_fault.hpp"
-#include "core/knot/knot.hpp"
+#include "core/knot/knot_words.hpp"
 #include "core/scene/phase.hpp"
 #include "experiments/live/live_run.hpp"
 
@@ -92,8 +92,8 @@ EXPORTED(live_phases) const char* live_phases() {
   return give(names);
 }
 
-EXPORTED(live_knot_name) const char* live_knot_name(int determinant, int v2) {
-  return give(knot_name({determinant, v2}));
+EXPORTED(live_knot_words) const char* live_knot_words(int determinant, int v2) {
+  return give(knot_words({determinant, v2}));
 }
 
 /// The scene's name, which the text is; its text by live_base, files that it names by

@@ -45,7 +45,7 @@ class LiveLog {
     for (const name of ["head_end", "tail_end", "held", ...ENERGY]) this.store[name] = new Growing();
     this.touching = new Growing();
     this.first = [0];
-    this.knots = ["0_1"];
+    this.knots = ["no knot"];
     this.knot = [];
     this.quantities = {};
     for (const [name, [label, unit, along]] of Object.entries(QUANTITIES)) this.quantities[name] = { label, unit, arc: animal[along], scale: 1, values: [] };

@@ -74,6 +74,9 @@ function download(name, content, type) {
 const UNITS = { cgs: { cm: [1, "cm"], dyn: [1, "dyn"], erg: [1, "erg"] }, si: { cm: [1e-2, "m"], dyn: [1e-5, "N"], erg: [1e-7, "J"] } };
 const csv = (rows) => rows.map((row) => row.map((cell) => (typeof cell === "number" ? (Number.isFinite(cell) ? String(cell) : "") : cell)).join(",")).join("\n") + "\n";
 
+/** The symbol of a knot in words, 0_1 of none. */
+const symbolOf = (words) => (words === "no knot" ? "0_1" : words.split(", ").pop());
+
 /** A row a frame: phase, knot, Eq. 6, forces, energy. */
 function runTable(log, system) {
   const { cm, dyn, erg } = UNITS[system];
@@ -81,7 +84,7 @@ function runTable(log, system) {
     ...EQ6.map((row) => `speed ${row.replace(",", "")} (${cm[1]}/s)`), ...EQ6.map((row) => `commanded ${row.replace(",", "")} (${cm[1]}/s)`),
     `clamp (${dyn[1]})`, `head plate (${dyn[1]})`, `your pull (${dyn[1]})`, ...ENERGY.map((name) => `${name} (${erg[1]})`)];
   const size = (values, f) => Math.hypot(values[f], values[f + 1], values[f + 2]);
-  return csv([heading, ...d3.range(log.frames).map((f) => [log.time[f], log.phaseName(f), log.knotName(f), cm[0] * log.head_end[f], cm[0] * log.tail_end[f],
+  return csv([heading, ...d3.range(log.frames).map((f) => [log.time[f], log.phaseName(f), symbolOf(log.knotName(f)), cm[0] * log.head_end[f], cm[0] * log.tail_end[f],
     ...d3.range(4).map((k) => cm[0] * log.eq6.speed[4 * f + k]), ...d3.range(4).map((k) => cm[0] * log.eq6.command[4 * f + k]),
     dyn[0] * size(log.head, 6 * f), dyn[0] * log.plate_force[f], dyn[0] * size(log.hand, 3 * f), ...ENERGY.map((name) => erg[0] * log.energy[name][f])])]);
 }

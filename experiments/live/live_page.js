@@ -29,8 +29,8 @@ const FIELDS = [
   { key: "controller.law", words: "control law", choices: LAWS },
   { key: "controller.reflex.shift", words: "reflex: Δ", unit: "cm", when: reflexive },
   { key: "controller.slide_head.a", words: "sliding speed", unit: "cm/s", sets: SPEED_ROWS, when: (v) => !reflexive(v) },
-  { key: "controller.cap", words: "cap of a row of Eq. 6", unit: "dyn", when: (v) => !reflexive(v) },
-  { key: "controller.contact_patch", words: "patch of Eq. 6, side (0: a point)", unit: "cm", when: (v) => !reflexive(v) },
+  { key: "controller.cap", words: "largest sliding force at a contact", unit: "dyn", when: (v) => !reflexive(v) },
+  { key: "controller.contact_patch", words: "width of a contact (0: a point)", unit: "cm", when: (v) => !reflexive(v) },
   { key: "active.stiffness", words: "muscles' stiffness", unit: "dyn cm²" },
   { key: "active.capacity", words: "muscles' largest torque", unit: "dyn cm" },
   { group: "Time" },
@@ -361,7 +361,7 @@ class Page {
 
 const TRIES = [
   { words: "1. A knot ties itself", scene: "living_overhand", speed: 4,
-    first: "The animal's own torques bend it into an overhand knot. Watch the knot's name change from 0_1 to 3_1 at about 9 s. Then the knot slides: both of its ends and the bends of the body go to the head." },
+    first: "The animal's own torques bend it into an overhand knot. Watch “no knot” become “overhand, 3_1” at about 9 s. Then the knot slides: both of its ends and the bends of the body go to the head." },
   { words: "2. Slide it by one number", scene: "reflex_overhand", speed: 4, goesOn: true,
     first: "First it ties the knot. Then every joint copies the bend of its neighbour, a little behind it.",
     then: "Now only the reflex acts: each joint copies the bend Δ behind it, and the knot slides to the head. Δ is now twice what it was.",
@@ -385,7 +385,7 @@ const TRIES = [
 /** One frame of nothing, for the viewer to begin with. */
 function EMPTY_FRAME(log) {
   const size = log.layout.reduce((sum, [, own]) => sum + own, 0), frames = new Float32Array(size);
-  return { count: 1, frames, touching: new Float32Array(0), counts: [0], names: { "0,0": "0_1" } };
+  return { count: 1, frames, touching: new Float32Array(0), counts: [0], names: { "0,0": "no knot" } };
 }
 
 /** The part of the page that is neither script nor style: what the worker runs, and the simulator itself. */

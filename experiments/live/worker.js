@@ -27,7 +27,7 @@ function takeFrame() {
   if (taken % stepsPerFrame() === 0) digest.add(runner.array("q"));
   for (const name of SENT) rows.push(new Float32Array(runner.array(name)));
   const type = Array.from(runner.array("knot"));
-  if (!names[type.join()]) names[type.join()] = runner.text("knot_name", ...type);
+  if (!names[type.join()]) names[type.join()] = runner.text("knot_words", ...type);
   const own = new Float32Array(runner.array("contacts"));
   contacts.push(own);
   counts.push(own.length / 9);

@@ -132,7 +132,7 @@ class Plots {
     this.logs.forEach((log, k) => {
       this.drawMap(this.maps[k], log, name, scale);
       this.stages[k].bands(stretches(log, (f) => log.phaseName(f)), 0, 20, (phase) => PHASE_INK[phase] || "#eee");
-      this.stages[k].bands(stretches(log, (f) => log.knotName(f)), 23, 20, (knot) => (knot === "0_1" ? "#f4f4f4" : "#bfe3d6"));
+      this.stages[k].bands(stretches(log, (f) => log.knotName(f)), 23, 20, (knot) => (knot === "no knot" ? "#f4f4f4" : "#bfe3d6"));
     });
     const speeds = this.logs.map((log) => EQ6.map((row, k) => ({ name: row, values: column(log.eq6.speed, 4, k) })));
     const before = (lists) => this.logs.flatMap((log, k) => lists[k].map((values) => untilRelease(log, Array.from(values))));

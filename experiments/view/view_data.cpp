@@ -7,7 +7,7 @@
 
 #include "core/control/controller.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot.hpp"
+#include "core/knot/knot_words.hpp"
 #include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
 #include "experiments/judge/replay.hpp"
@@ -119,7 +119,8 @@ void add_stages(const LogContents& log, Json& json) {
   for (std::size_t f = 0; f < log.time.size(); ++f) {
     phase.push_back(static_cast<std::uint8_t>(log.phase[f]));
     clamped.push_back(log.clamped(static_cast<Eigen::Index>(f)) ? 1 : 0);
-    const std::string name = knot_name({static_cast<int>(determinant[f]), static_cast<int>(v2[f])});
+    const std::string name =
+        knot_words({static_cast<int>(determinant[f]), static_cast<int>(v2[f])});
     auto found = std::ranges::find(knots, name);
     // A log of no sense may have any number of types: one byte names the first 255.
     if (found == knots.end() && knots.size() < 255) found = knots.insert(found, name);

@@ -1,6 +1,7 @@
 "use strict";
 // The page: one time, one camera, the controls.
 
+const BARS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100], LONGEST_BAR = 150; // cm, px
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8];
 const element = (id) => document.getElementById(id);
 
@@ -14,6 +15,8 @@ class Viewer {
     const two = logs.length > 1;
     this.renderer = new THREE.WebGLRenderer({ canvas: element("scene"), antialias: true });
     this.setBackground();
+    // A driver that starts anew has lost all but what three.js makes again.
+    element("scene").addEventListener("webglcontextrestored", () => { this.setBackground(); this.ask(); });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { this.setBackground(); this.ask(); });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.camera = new THREE.PerspectiveCamera(30, 1, 0.5, 2000);
@@ -225,8 +228,7 @@ class Viewer {
 
   words() {
     const log = this.logs[0], f = this.shown[0], ends = [log.head_end[f], log.tail_end[f]];
-    const span = log.knotName(f) !== "0_1" && ends.every(Number.isFinite) ? `, ${ends[0].toFixed(1)} to ${ends[1].toFixed(1)} cm` : "";
-    const knot = log.knotName(f) === "0_1" ? "no knot" : `knot ${log.knotName(f)}`;
+    const knot = log.knotName(f), span = knot !== "no knot" && ends.every(Number.isFinite) ? `, ${ends[0].toFixed(1)} to ${ends[1].toFixed(1)} cm` : "";
     const [leads, trails, asked, travel] = Array.from(log.slide.slice(4 * f, 4 * f + 4), (cm) => cm.toFixed(1));
     const slid = Number.isFinite(log.slide[4 * f]) ? `; slide: head end ${leads} cm, tail end ${trails} of ${asked} that taper asks, curvature ${travel}` : "";
     return `t = ${log.time[f].toFixed(2)} s, ${log.phaseName(f)}, ${knot}${span}${slid}`;
@@ -239,8 +241,17 @@ class Viewer {
     requestAnimationFrame(() => this.render());
   }
 
+  /** A bar as long as so many cm are seen in the middle of the view. */
+  drawBar() {
+    const away = this.camera.position.distanceTo(this.orbit.target), half = Math.tan(Math.PI / 180 * this.camera.fov / 2);
+    const perCm = this.renderer.domElement.clientHeight / (2 * away * half), long = BARS.filter((cm) => cm * perCm <= LONGEST_BAR).pop() || BARS[0];
+    element("bar").style.width = `${long * perCm}px`;
+    element("bar").textContent = `${long} cm`;
+  }
+
   render() {
     this.asked = false;
+    this.drawBar();
     const canvas = this.renderer.domElement, width = canvas.clientWidth, height = canvas.clientHeight, parts = this.beside() ? 2 : 1;
     this.renderer.setScissorTest(false);
     this.renderer.clear();

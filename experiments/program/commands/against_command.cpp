@@ -6,6 +6,7 @@
 #include "core/chain/kinematics.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "core/knot/knot_words.hpp"
 #include "experiments/common/csv.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/film/film_checks.hpp"
@@ -59,8 +60,9 @@ void compare_hands(const LogContents& log, const Film& film, double later,
   fmt::print(
       "{}: at {:g} s its {} is {}-handed, but that of {} is {}-handed: check the "
       "direction of y (--y-up, --y-down)\n",
-      printable(options.film), last.time, seen.name, seen.hand == Hand::right ? "right" : "left",
-      printable(options.log), own.hand == Hand::right ? "right" : "left");
+      printable(options.film), last.time, knot_words(seen.name),
+      seen.hand == Hand::right ? "right" : "left", printable(options.log),
+      own.hand == Hand::right ? "right" : "left");
 }
 
 int against(const AgainstOptions& options) {

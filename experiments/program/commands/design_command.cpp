@@ -6,6 +6,7 @@
 #include "core/input/files/text_file.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "core/knot/knot_words.hpp"
 #include "experiments/common/cores.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/design/design.hpp"
@@ -71,8 +72,8 @@ int make_design(const DesignArguments& arguments, const std::string& typed) {
     return exit_code::failed;
   }
   say("hagfish: {}: {}: {}; {:.0f} s of CPU time, {:.0f} s by the clock\n",
-      printable(arguments.out), arguments.knot, printable(outcome.in_words()), outcome.time.cpu,
-      outcome.time.wall);
+      printable(arguments.out), knot_words(arguments.knot), printable(outcome.in_words()),
+      outcome.time.cpu, outcome.time.wall);
   return outcome.found ? exit_code::done : exit_code::wrong_knot;
 }
 

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/control/controller.hpp"
 #include "core/input/input_text.hpp"
+#include "core/knot/knot_words.hpp"
 #include "core/log/reading/log_contents.hpp"
 #include "core/log/reading/logged_run.hpp"
 #include "experiments/export/swept_skin.hpp"
@@ -34,6 +36,7 @@ struct LogInfo {
   std::size_t frames = 0, steps = 0;
   double first = 0, last = 0, step = 0, wall_time = 0;  ///< s
   std::vector<PhaseStart> phases;
+  std::vector<std::string> warnings;
   double swept = NAN, skin = NAN;  ///< cm^2: what the knot swept, and all; nan without q
 };
 
@@ -79,6 +82,8 @@ LogInfo read_info(const std::string& file) {
   info.step = log.resolved.scene.time.step;
   info.wall_time = log.h5.doubles("/diagnostics/wall_time").back();
   info.phases = phase_starts(log);
+  std::istringstream warnings(log.h5.root_text("warnings"));
+  for (std::string line; std::getline(warnings, line);) info.warnings.push_back(printable(line));
   if (level_of(log.h5) != LogLevel::summary) {
     const SweptSkin swept = swept_skin(log);
     info.swept = swept.swept();
@@ -97,7 +102,7 @@ void print_info(const LogInfo& info) {
              info.first, info.last, info.step, info.steps);
   fmt::print("{:<16} {:.1f} s\n", "wall time", info.wall_time);
   for (const PhaseStart& start : info.phases) {
-    fmt::print("{:<16} from {:.2f} s, knot {}{}\n", start.phase, start.time, start.knot,
+    fmt::print("{:<16} from {:.2f} s, {}{}\n", start.phase, start.time, knot_words(start.knot),
                std::isnan(start.head_end) ? ""
                                           : fmt::format(", contacts from {:.1f} to {:.1f} cm",
                                                         start.head_end, start.tail_end));
@@ -106,6 +111,7 @@ void print_info(const LogInfo& info) {
     fmt::print("{:<16} {:.1f} cm^2 of skin by the knot, {:.1f} % of {:.0f} cm^2\n", "swept",
                info.swept, 100 * info.swept / info.skin, info.skin);
   }
+  for (const std::string& warning : info.warnings) fmt::print("{:<16} {}\n", "warning", warning);
 }
 
 nlohmann::ordered_json json_of(const LogInfo& info) {
@@ -122,6 +128,7 @@ nlohmann::ordered_json json_of(const LogInfo& info) {
   json["wall_time_s"] = info.wall_time;
   json["swept_cm2"] = info.swept;
   json["skin_cm2"] = info.skin;
+  json["warnings"] = info.warnings;
   json["phases"] = nlohmann::ordered_json::array();
   for (const PhaseStart& start : info.phases) {
     // What is no number becomes null.

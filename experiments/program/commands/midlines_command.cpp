@@ -11,6 +11,7 @@
 #include "core/input/csv/curvature_csv.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "core/knot/knot_words.hpp"
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"
@@ -125,7 +126,7 @@ void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
             const CurvatureProgram& program, TextFile& out, Work& work) {
   const Model model = make_hagfish(resolved.specimen, resolved.scene);
   const FilmedKnot knot = knot_of(model, program, program.time.size() - 1, resolved.scene.knot);
-  fmt::print("knot at the film's end: {}{}\n", knot.name == "0_1" ? "none" : knot.name,
+  fmt::print("knot at the film's end: {}{}\n", knot.name == "0_1" ? "none" : knot_words(knot.name),
              hand_text(knot));
   double stiffness = resolved.scene.active.stiffness;
   if (resolved.scene.script.kind != ScriptSettings::Kind::curvature || !(stiffness > 0)) {
@@ -158,7 +159,7 @@ void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
           "run by this program with active.stiffness = {:g} (a setting found by trying, no "
           "property "
           "of the animal): {:.2g} cm from its shapes (rms), ends with {}{}\n",
-          stiffness, best->rms, best->knot.name == "0_1" ? "no knot" : "a " + best->knot.name,
+          stiffness, best->rms, a_knot(best->knot.name),
           best->knot.name == knot.name && best->knot.hand == knot.hand
               ? ", as the film does"
               : ": muscles of this stiffness or less do not tie the film's knot");

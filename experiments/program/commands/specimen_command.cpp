@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <numbers>
@@ -8,6 +10,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
+#include "core/knot/knot_words.hpp"
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/specimen_files.hpp"
 #include "experiments/common/text_file.hpp"
@@ -45,8 +48,9 @@ constexpr double least_slenderness = 15, largest_slenderness = 45;  // length ov
 /// Zero or empty: the paper's animal's, scaled.
 struct SpecimenOptions {
   std::string out, scene_out, name = "my animal", knot = "3_1";
-  double length = 0, mass = 0, twist = 0, thicker = 1;                      ///< cm, g, degrees, 1
-  std::vector<double> station{0.2, 0.4, 0.6, 0.8}, circumference, bending;  ///< cm, degrees
+  double length = 0, mass = 0, twist = 0, thicker = 1;  ///< cm, g, degrees, 1
+  std::vector<double> station{0.2, 0.4, 0.6, 0.8}, circumference, bending, height,
+      width;  ///< cm, degrees
   bool force = false;
 };
 
@@ -56,6 +60,8 @@ void check(const SpecimenOptions& options) {
   }
   const std::tuple<const char*, const std::vector<double>&, double> lists[] = {
       {"--circumference", options.circumference, most_around},
+      {"--height", options.height, most_around},
+      {"--width", options.width, most_around},
       {"--bending", options.bending, most_bending}};
   for (const auto& [name, list, most] : lists) {
     if (!list.empty() && list.size() != options.station.size()) {
@@ -74,6 +80,15 @@ void check(const SpecimenOptions& options) {
       throw InputError(fmt::format("--station {:g}: must rise from 0 to 1", here));
     }
   }
+}
+
+/// Sections of the model are round: the girths of circles of the same areas, cm.
+std::vector<double> round_girths(const SpecimenOptions& options) {
+  std::vector<double> girths;
+  for (std::size_t k = 0; k < options.height.size(); ++k) {
+    girths.push_back(std::numbers::pi * std::sqrt(options.height[k] * options.width[k]));
+  }
+  return girths;
 }
 
 double slenderness(const Specimen& animal) { return animal.length / mean_diameter(animal); }
@@ -156,11 +171,19 @@ void tell_whether_it_ties(const SpecimenOptions& options, const AnimalRatios& be
       "knot           {} may not be tied: the animal is {:.3g} times as thick for its length as "
       "the paper's; {:g} to {:g} was tied. For a program of its own: hagfish design {} --specimen "
       "{} --out FOLDER\n",
-      options.knot, thickness, thinnest, base.thickest, options.knot, shell_word(options.out));
+      knot_words(options.knot), thickness, thinnest, base.thickest, options.knot,
+      shell_word(options.out));
 }
 
-int specimen(const SpecimenOptions& options) {
+int specimen(SpecimenOptions options) {
   check(options);
+  if (!options.height.empty()) {
+    options.circumference = round_girths(options);
+    fmt::print(
+        "girth          {:.3g} cm: of circles of the sections' areas; the model is round and bends "
+        "alike up and sideways, a flat animal does not\n",
+        fmt::join(options.circumference, ", "));
+  }
   TextFile out(options.out, options.force);
   std::optional<TextFile> scene_out;
   if (!options.scene_out.empty()) scene_out.emplace(options.scene_out, options.force);
@@ -193,8 +216,13 @@ void add_specimen(Program& program) {
       ->check(from_to(1.0, 1000.0));
   app->add_option("--mass", options->mass, "whole body, g (the same density)")
       ->check(from_to(1e-3, 1e6));
-  list("--circumference", options->circumference,
-       "at the stations, cm, as in 4.6,4.4,3.2 (the same shape)");
+  CLI::Option* circumference = list("--circumference", options->circumference,
+                                    "at the stations, cm, as in 4.6,4.4,3.2 (the same shape)");
+  CLI::Option* height = list("--height", options->height,
+                             "of flat animals instead, with --width: of their sections, cm");
+  CLI::Option* width = list("--width", options->width, "likewise");
+  height->needs(width)->excludes(circumference);
+  width->needs(height);
   list("--bending", options->bending,
        "bending limits at the stations, degrees, separated by commas (the skin stretched as much)");
   app->add_option("--twist", options->twist,

@@ -6,7 +6,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot.hpp"
+#include "core/knot/knot_words.hpp"
 #include "core/log/hdf5/output_file.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"
@@ -54,9 +54,8 @@ std::vector<std::size_t> film_frames(const LogContents& log, double rate, double
 std::string words_of(const LogContents& log, const std::vector<std::int64_t>& determinant,
                      const std::vector<std::int64_t>& v2, std::size_t frame) {
   const KnotInvariants type{static_cast<int>(determinant[frame]), static_cast<int>(v2[frame])};
-  const std::string knot = type == KnotInvariants{} ? "no knot" : "knot " + knot_name(type);
   return fmt::format("t = {:.2f} s   {}   {}", log.time[frame],
-                     phase_name(static_cast<Phase>(log.phase[frame])), knot);
+                     phase_name(static_cast<Phase>(log.phase[frame])), knot_words(type));
 }
 
 int movie(const MovieOptions& options) {

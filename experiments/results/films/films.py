@@ -1,5 +1,5 @@
 """How well `hagfish midlines` gives back what was filmed: closed forms, ten runs as films with a tracker's faults, 300 damaged
-films; and what the tutorial takes.
+films; what the tutorial takes; and how well `hagfish animal` gives back animals that are let go.
 
 Usage: films.py RUNS OUT_FOLDER. Needs the program as built (HAGFISH_PROGRAM). Runs that RUNS has a row of are not made again.
 """
@@ -379,7 +379,51 @@ def ranges(folder: Path) -> list[dict]:
     return tables.read_csv(folder / "tutorial/range.csv", [])
 
 
-PARTS = forms, runs, damaged, tutorial, ranges
+# Animals that are let go --------------------------------------------------------------------------------------------
+
+TRAITS = {"stiffness EI": 2e5, "damping": 3e3, "drag": 9.434}  # of the specimen and of the scene table1: dyn cm^2, dyn cm^2 s, g/(s cm)
+WITH = ["--scene", "table1", "--set", "model.passive=specimen", "--animal-length", LENGTH]
+
+
+def let_go(folder: Path, name: str, factor: dict[str, float], bend: float, flat: bool, bodies: int = BODIES, seed: int = 1) -> None:
+    """NAME.csv: a film, half a millimetre off, of a body with the traits times `factor` that begins bent by `bend`, rad/cm, and has no
+    muscles: held by the head, or (flat) free and seen by one camera."""
+    stiffness, damping, drag = (value * factor[trait] for trait, value in TRAITS.items())
+    settings = [f"model.bodies={bodies}", "model.passive=specimen", f"clamp_head={str(not flat).lower()}", "script.kind=none",
+                "wall.present=false", "time.step=0.001", "time.rule=midpoint", "time.duration=2", "time.frame_interval=0.04",
+                f"drag.normal={drag}", f"drag.tangential={drag / 4}",
+                f"start.bend=[[0,0,0,{bend}],[0.5,0,{0 if flat else bend / 2},{bend / 2}],[1,0,0,{bend}]]",
+                f"specimen.passive.bending_stiffness={[stiffness] * 4}", f"specimen.passive.bending_damping={[damping] * 4}"]
+    hagfish(folder, "run", "table1", "--out", f"{name}.h5", "--qp", "active-set", "--log", "frames", "--force", "--quiet",
+            *(word for setting in settings for word in ("--set", setting)))  # nothing is tied, which is exit code 3
+    points = slice(None, None, bodies // 16)
+    with h5py.File(folder / f"{name}.h5") as log:
+        time, place = log["trajectory/time"][()], log["trajectory/position"][:, points]
+    s = ((np.arange(bodies) + 0.5) / bodies * LENGTH)[points]
+    write_film(folder / f"{name}.csv", time, s,
+               (place + NOISE / 2 * np.random.default_rng(seed).standard_normal(place.shape))[..., :2 if flat else 3],
+               "time_s,s_cm,x_cm,y_cm" + ("" if flat else ",z_cm"))
+
+
+def animals(folder: Path, count: int = 18) -> list[dict]:
+    """Films of animals of 150 bodies, fitted by the command's 50: the traits that it finds, as factors."""
+    random, rows = np.random.default_rng(1), []
+    damping, drag = (random.permutation(np.geomspace(0.4, most, count)) for most in (2.5, 2.7))
+    for k, factors in enumerate(zip(np.geomspace(0.15, 6, count), damping, drag)):
+        flat = k % 2 == 1
+        let_go(folder, "let_go", dict(zip(TRAITS, factors)), 0.06, flat, 150, k)
+        _, said = hagfish(folder, "animal", "let_go.csv", *WITH, *(["--free-head"] if flat else []))
+        row = {"film": f"{k + 1}, {'free, in a plane' if flat else 'held, in space'}"}
+        for trait, true in zip(TRAITS, factors):
+            told = re.search(rf"^{trait}: (\S+) times the scene's, (\S+) to (\S+) \(90 %\)", said, re.MULTILINE)
+            row |= {trait: float(true), f"{trait}, found": "{} ({} to {})".format(*told.groups()) if told else "not told",
+                    f"{trait}, within": "" if not told else "yes" if float(told[2]) <= true <= float(told[3]) else "no"}
+        rows.append(row)
+        print(row, flush=True)
+    return rows
+
+
+PARTS = forms, runs, damaged, tutorial, ranges, animals
 
 # Tables -------------------------------------------------------------------------------------------------------------
 
@@ -395,7 +439,7 @@ def outcomes(films: list[dict[str, str]]) -> list[list[str]]:
     return [[outcome, str(sum(row["outcome"] == outcome for row in films))] for outcome in known]
 
 
-def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: list[dict]) -> list[list[str]]:
+def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: list[dict], animals: list[dict]) -> list[list[str]]:
     """What sentences of the page say and no other table has."""
     number = lambda rows, name: [float(row[name]) for row in rows if row.get(name)]
     exact, noisy = ([row for row in forms if (float(row["noise (cm)"]) > 0) == noise] for noise in (False, True))
@@ -419,14 +463,16 @@ def figures(forms: list[dict], runs: list[dict], films: list[dict], chapters: li
         ("right with few bends in their bands and nothing said", len(few)),
         ("damaged: median fit, s", f"{np.median(times):.2g}"),
         ("damaged: longest fit, s", f"{max(times):.2g}"),
+        *((f"animals: {trait} within its interval of 90 %, of films that tell it", "{} of {}".format(
+            sum(row[f"{trait}, within"] == "yes" for row in animals), sum(row[f"{trait}, within"] != "" for row in animals))) for trait in TRAITS),
         ("tutorial, minutes", f"{sum(number(chapters, 'by the clock (s)')) / 60:.1f}")]]
 
 
 def write_summaries(folder: Path) -> None:
     """Of the tables of all parts."""
-    forms, runs, films, chapters, _ = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", []) for part in PARTS)
+    forms, runs, films, chapters, _, animals = (tables.read_csv(folder / "tables" / f"films_{part.__name__}.csv", []) for part in PARTS)
     tables.write_table(folder, "films_outcomes", ["outcome", "films"], outcomes(films))
-    tables.write_table(folder, "films_figures", ["figure", "value"], figures(forms, runs, films, chapters))
+    tables.write_table(folder, "films_figures", ["figure", "value"], figures(forms, runs, films, chapters, animals))
 
 
 def main(folder: Path, out: Path) -> None:

@@ -19,6 +19,8 @@ from script import run_script
 from slit_scene import AT, POLE, THICKEST
 from slit_wave import WALL
 
+SWIMMER, SWAM = 31.5, "17.5"  # cm, cm/s: a hagfish, Long et al. 2002
+SWUM = ("0.7_0.6_0.5", "0.7_0.6_0.333")  # waves in open water
 SHARES, STIFFNESSES = ("0.9", "0.8", "0.7", "0.6", "0.5"), ("6e4", "1e5", "3e5")
 PART = (0.3, 0.55)  # of the body, whose passage counts: as thick all along to 2 %
 RELAXATION, SPEED = 0.015, 3.0  # s, cm/s: slit.toml
@@ -64,6 +66,15 @@ def passed(path: Path, share: float) -> str:
         if (np.abs(at) > share * THICKEST / 2 + POLE).any():
             return "goes round the poles"
     return "stays in it"
+
+
+def swims(path: Path, period: float) -> float:
+    """Speed of the body's middle over the last whole periods of the second half of a run, cm/s."""
+    log = HagfishLog(path)
+    time, middle = log["/trajectory/time"], log["/trajectory/position"].mean(axis=1)
+    lasts = period * int(time[-1] / 2 / period)
+    first, last = (np.array([np.interp(at, time, row) for row in middle.T]) for at in (time[-1] - lasts, time[-1]))
+    return float(np.linalg.norm(last - first)) / lasts
 
 
 def closed_form(stiffness: float, width: float, radius: float) -> tuple[float, float]:
@@ -133,6 +144,14 @@ def main(folder: Path) -> None:
         for share in ("1.2", "0.9", "0.8", "0.7"):
             angle, length, period = wave.split("_")
             waves.append([angle, length, period, share, passed(folder / "runs" / f"wave_{wave}_{share}.h5", float(share))])
+    swum = []
+    for name in SWUM:
+        angle, length, period = name.split("_")
+        speed, wave = swims(folder / "runs" / f"swim_{name}.h5", float(period)), float(length) * SWIMMER / float(period)
+        swum.append([angle, length, period, f"{speed:.1f}", f"{speed / wave:.2f}", SWAM])
+    tables.write_table(folder, "slit_swim", [
+        "angle of the wave, rad", "its length over the body's", "its period, s", "speed, cm/s", "speed over the wave's",
+        "a hagfish of the same length, cm/s"], swum)
     tables.write_table(folder, "slit_wave", [
         "angle of the wave, rad", "its length over the body's", "its period, s", "width over the body's", "through after, s"], waves)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Through a slit narrower than the body: pulled, by a knot behind it, and by a wave. Leaves tables/slit.csv, slit_meshes.csv,
-# slit_knot.csv, slit_wave.csv and slit.png. Stopped, it goes on where it was.
+# Through a slit narrower than the body: pulled, by a knot behind it, and by a wave; the wave in open water. Leaves tables/slit.csv,
+# slit_meshes.csv, slit_knot.csv, slit_wave.csv, slit_swim.csv and slit.png. Stopped, it goes on where it was.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
@@ -33,5 +33,12 @@ for wave in "0.5 1 1" "0.7 0.6 0.5"; do
     draw slit_wave.py $wave "$share" "$out/scenes/$name.csv" "$out/scenes/$name.toml"
     once "$name" "$out/scenes/$name.toml" --qp active-set
   done
+done
+"$hagfish" specimen --length 31.5 --out "$out/scenes/small.toml" --scene-out "$out/scenes/swimmer.toml" --force
+for wave in "0.7 0.6 0.5" "0.7 0.6 0.333"; do
+  name=swim_${wave// /_}
+  # shellcheck disable=SC2086 # three numbers
+  draw slit_wave.py $wave "$out/scenes/swimmer.toml" "$out/scenes/$name.csv" "$out/scenes/$name.toml"
+  once "$name" "$out/scenes/$name.toml" --qp active-set
 done
 draw slit.py "$out"

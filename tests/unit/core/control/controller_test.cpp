@@ -275,9 +275,9 @@ TEST_F(Controller, TellsWhichKnotCameUndoneAndWhen) {
   now = 4.5;
   step({});
   now = 7.1;
-  EXPECT_EQ(
-      complaint({}),
-      "the script ended with no knot (there was a 3_1 from 3.00 to 4.50 s), but expect.knot = 3_1");
+  EXPECT_EQ(complaint({}),
+            "the script ended with no knot (there was a knot (overhand, 3_1) from 3.00 to 4.50 s), "
+            "but expect.knot = 3_1");
 }
 
 TEST_F(Controller, WaitsForTheScenesKnotAndTellsWhichOneCame) {
@@ -287,8 +287,9 @@ TEST_F(Controller, WaitsForTheScenesKnotAndTellsWhichOneCame) {
   step({contact(5, 30)});
   EXPECT_EQ(state.phase, Phase::form);
   now = 7.1;
-  EXPECT_EQ(complaint({contact(5, 30)}),
-            "the script ended with a 3_1, tied since 3.00 s, but expect.knot = 4_1");
+  EXPECT_EQ(
+      complaint({contact(5, 30)}),
+      "the script ended with a knot (overhand, 3_1), tied since 3.00 s, but expect.knot = 4_1");
 }
 
 TEST_F(Controller, TellsOfTooLittleTailThrough) {
@@ -297,7 +298,8 @@ TEST_F(Controller, TellsOfTooLittleTailThrough) {
   step({contact(5, 35)});
   now = 7.1;
   EXPECT_EQ(complaint({contact(5, 35)}),
-            "the script ended with a 3_1, tied since 3.00 s, but only 7.40 cm of tail is through "
+            "the script ended with a knot (overhand, 3_1), tied since 3.00 s, but only 7.40 cm of "
+            "tail is through "
             "it; controller.tail_through = 8 cm");
 }
 

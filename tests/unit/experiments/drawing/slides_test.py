@@ -63,7 +63,7 @@ def test_pareto_front():
 
 @pytest.mark.parametrize("status, words", [
     ("failed: body 7 is 0.31 cm past its limit at step 12 (t = 0.1 s)", "a body went past its limit"),
-    ("failed: the script ended with a 3_1, tied since 8.60 s, but expect.knot = 4_1 at step 6505", "the script ended with a 3_1"),
+    ("failed: the script ended with a knot (overhand, 3_1), tied since 8.60 s, but expect.knot = 4_1 at step 6505", "the script ended with a knot (overhand, 3_1)"),
     ("complete", "")])
 def test_why_a_run_failed(content, log, status, words):
     content.attributes["status"] = status

@@ -74,7 +74,7 @@ def test_a_film_gives_back_knot_and_midlines(film, fitted):
     residual = float(fitted.split("fitted: ")[1].split(" cm")[0])
     assert residual == pytest.approx(OF_NOISE, rel=0.1)  # the film's noise, and hardly more
     # What it says is to be run has muscles that follow the program: the run ties the knot and is where the animal was.
-    assert "knot at the film's end: 3_1, right-handed" in fitted and "as the film does" in fitted
+    assert "knot at the film's end: overhand, 3_1, right-handed" in fitted and "as the film does" in fitted
     assert "torques are about in proportion to the rigidity EI" in fitted and "no property of the animal" in fitted
     (run,) = [line for line in fitted.splitlines() if line.startswith("hagfish run")]
     hagfish(film, *run.split()[1:], "--quiet")
@@ -173,6 +173,12 @@ def test_a_bad_film_is_one_line(tmp_path, name):
     text, part = BAD[name]
     (tmp_path / "bad.csv").write_text(text)
     refused(tmp_path, "midlines", "bad.csv", "--out", "p.csv", parts=("bad.csv", part))
+
+
+@pytest.mark.parametrize(("text", "part"), [(GOOD, "--scale: has no column in px"), (BAD["space"][0], "--scale is for pixels")])
+def test_a_scale_that_nothing_would_use_is_refused(tmp_path, text, part):
+    (tmp_path / "bad.csv").write_text(text)
+    refused(tmp_path, "midlines", "bad.csv", "--scale", 25, "--fps", 30, "--out", "p.csv", parts=("bad.csv", part))
 
 
 def test_what_a_film_does_not_bear_is_one_line(film, tmp_path):

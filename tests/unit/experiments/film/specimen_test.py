@@ -45,6 +45,15 @@ def test_it_writes_what_was_measured_and_works_out_the_rest(tmp_path):
         assert mine["muscle"][key] == pytest.approx(other["muscle"][key])
 
 
+def test_a_flat_animal_has_the_girths_of_circles_of_its_sections_areas(tmp_path):
+    height, width = np.array([2.0, 1.8, 1.6, 1.2]), np.array([1.4, 1.0, 0.8, 0.6])
+    said, flat = specimen(tmp_path, "--height", ",".join(map(str, height)), "--width", ",".join(map(str, width)))
+    assert np.array(flat["circumference"]) ** 2 / (4 * np.pi) == pytest.approx(np.pi / 4 * height * width, rel=1e-5)
+    assert "the model is round" in said
+    for more in ([], ["--width", "1,1"], ["--width", "1,1,1,1", "--circumference", "4,4,4,4"], ["--width", "1,1,1,0"]):
+        refused(tmp_path, "specimen", "--height", "2,2,2,2", *more, "--out", "x.toml", parts=("--width" if "--circumference" not in more else "--circumference",))
+
+
 def test_what_is_odd_is_said(tmp_path):
     thick = ["--length", 35, "--mass", 450, "--circumference", "14,14", "--station", "0.3,0.7", "--twist", 60]
     said, _ = specimen(tmp_path, *thick, "--bending", "25,95")

@@ -148,7 +148,7 @@ def test_a_run_in_the_page_ties_a_3_1_and_has_the_digest_of_the_native_program(p
     page.start("living_overhand")
     page.until("page.over", "the run does not end")
     knots = page.run("(() => { const log = page.log; return Array.from({ length: log.frames }, (_, f) => log.phaseName(f) + ' ' + log.knotName(f)); })()")
-    assert "slide 3_1" in knots and knots[-1] == "free 0_1"
+    assert "slide overhand, 3_1" in knots and knots[-1] == "free no knot"
     assert page.run("page.digest") == digest_of(NATIVE, "living_overhand")
 
 
@@ -191,7 +191,7 @@ def test_a_reflex_has_no_patch_of_eq_6(page):
 def test_the_first_guided_step_names_the_time_of_the_knot(page):
     page.start("living_overhand", ["time.duration=10"])
     page.until("page.over", "the run does not end")
-    tied = page.run("page.log.time[page.log.knot.findIndex((one) => page.log.knots[one] === '3_1')]")
+    tied = page.run("page.log.time[page.log.knot.findIndex((one) => page.log.knots[one] === 'overhand, 3_1')]")
     assert f"at about {tied:.0f} s" in page.run("TRIES[0].first"), tied
 
 

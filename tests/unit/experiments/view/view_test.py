@@ -62,7 +62,7 @@ def test_the_page_holds_what_the_log_holds(run):
     places, own = log["trajectory/position"][()], decoded(page["position"])
     np.testing.assert_allclose(own, places.ravel(), atol=PLACE)
     assert [page["phases"][k] for k in decoded(page["phase"])] == phases(log)
-    assert np.all((np.array(page["knots"])[decoded(page["knot"])] == "3_1") == (log["knot/determinant"][()] == 3))
+    assert np.all((np.array(page["knots"])[decoded(page["knot"])] == "overhand, 3_1") == (log["knot/determinant"][()] == 3))
     # Some of the six are 0 but for rounding.
     head = log["mean/forces/head"][:, :6]
     np.testing.assert_allclose(decoded(page["head"]), head.ravel(), rtol=1e-6, atol=1e-30)
@@ -166,7 +166,7 @@ def test_the_page_replays_the_log(run, browser):
         browser.run(f"(() => {{ const s = document.getElementById('scrub'); s.value = {frame}; s.dispatchEvent(new Event('input')); }})()")
         now = browser.run("document.getElementById('now').textContent")
         assert f"t = {time[frame]:.2f} s" in now
-        assert ("knot 3_1" if knotted[frame] else "no knot") in now
+        assert ("overhand, 3_1" if knotted[frame] else "no knot") in now
         # What is drawn is where the log has it: the skin's rings are about the spline's points.
         centre = browser.run("(() => { const b = viewer.bodies[0], p = b.geometry.attributes.position.array, m = [0, 0, 0], k = CAP_RINGS + 2 * 30;"
                              "for (let s = 0; s < SIDES; ++s) for (let i = 0; i < 3; ++i) m[i] += p[3 * (k * SIDES + s) + i] / SIDES; return m; })()")
@@ -184,6 +184,37 @@ def test_the_page_replays_the_log(run, browser):
     browser.press(" ")
     assert browser.run("viewer.playing") is False
     assert browser.errors == []
+
+
+@needs_chromium
+def test_a_bar_tells_the_scale(run, browser):
+    browser.open(run / "a.html")
+    browser.run("viewer.render()")
+    # A stick of the bar's length in the middle, across the view, is as long on the screen.
+    bar, stick = browser.run("""(() => {
+      const across = new THREE.Vector3(1, 0, 0).applyQuaternion(viewer.camera.quaternion), long = parseFloat(element("bar").textContent);
+      const end = viewer.orbit.target.clone().addScaledVector(across, long).project(viewer.camera);
+      return [element("bar").getBoundingClientRect().width, end.x / 2 * viewer.renderer.domElement.clientWidth];
+    })()""")
+    assert bar == pytest.approx(stick, rel=0.01) and 20 < bar <= 150
+
+
+@needs_chromium
+def test_a_lost_picture_comes_back(run, browser):
+    browser.open(run / "a.html")
+    browser.run("""(async () => {
+      const lose = viewer.renderer.getContext().getExtension("WEBGL_lose_context"), canvas = element("scene");
+      const comes = (name) => new Promise((done) => canvas.addEventListener(name, () => setTimeout(done, 100), { once: true }));
+      const lost = comes("webglcontextlost"), back = comes("webglcontextrestored");
+      lose.loseContext();
+      await lost;
+      lose.restoreContext();
+      await back;
+    })()""")
+    stage = browser.run("getComputedStyle(element('stage')).backgroundColor.match(/[0-9]+/g).map(Number)")
+    assert browser.run(COLOURS_ON_CANVAS) > 100
+    assert browser.run("""(() => { viewer.render(); const gl = viewer.renderer.getContext(), px = new Uint8Array(4);
+      gl.readPixels(2, gl.drawingBufferHeight - 3, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, px); return Array.from(px.slice(0, 3)); })()""") == stage
 
 
 # What a ray against X meets of the obstacles at a place (y, z), the nearest first: their x.

@@ -33,7 +33,7 @@ class LogCommandsTest : public ProgramTest {
   void expect_told(const std::string& arguments, int code, const std::vector<std::string>& parts) {
     const ProgramOutcome run = run_program("run --quiet --force --out a.h5 " + arguments);
     ASSERT_EQ(run.code, code) << run.output;
-    const ProgramOutcome check = run_program("check a.h5 --csv a.csv");
+    const ProgramOutcome check = run_program("check a.h5 --all --csv a.csv");
     EXPECT_EQ(check.code, 1) << check.output;
     for (const std::string& part : parts) {
       EXPECT_NE(check.output.find(part), std::string::npos) << part << " in " << check.output;
@@ -64,9 +64,10 @@ TEST_F(LogCommandsTest, AProgramMadeOfALogRuns) {
 
 TEST_F(LogCommandsTest, OfARunThatNeverTiesTellSo) {
   expect_told("--set time.duration=0.02 --set expect.hand=right", 0,
-              {"FAIL knot held                never tied: no frame with a 3_1\n",
-               "FAIL hand                     never tied: no frame with a 3_1\n",
-               "the log, of 0 to 0.02 s, has no frame to be a 3_1 from tighten to release\n",
+              {"FAIL knot held                never tied: no frame with a knot (overhand, 3_1)\n",
+               "FAIL hand                     never tied: no frame with a knot (overhand, 3_1)\n",
+               "the log, of 0 to 0.02 s, has no frame with a knot (overhand, 3_1) from tighten to "
+               "release\n",
                "FAIL slide                    no slide (at least 9 cm)\n",
                "FAIL Eq. 6                    no sliding steps (at least 95 %)\n",
                "ok   contacts followed        no contact was followed\n"});
@@ -75,8 +76,8 @@ TEST_F(LogCommandsTest, OfARunThatNeverTiesTellSo) {
 TEST_F(LogCommandsTest, OfARunThatTiesButNeverTightensTellSo) {
   // The script ties after 9 s; this much tail is never through.
   expect_told("--preset quick --set controller.tail_through=40 --set time.duration=11", 0,
-              {"FAIL knot held                never tightened, though a 3_1 at ",
-               "FAIL hand                     never tightened, though a 3_1 at ",
+              {"FAIL knot held                never tightened, though a knot (overhand, 3_1) at ",
+               "FAIL hand                     never tightened, though a knot (overhand, 3_1) at ",
                "FAIL slide                    no slide (at least 9 cm)\n"});
 }
 
@@ -112,11 +113,14 @@ TEST_F(LogCommandsTest, CheckWritesARowForEachLogAndCriterion) {
   EXPECT_EQ(one.code, 0) << one.output;
   EXPECT_EQ(one.output.rfind("ok   status", 0), 0u)
       << "no heading for a single log: " << one.output;
+  EXPECT_EQ(std::ranges::count(one.output, '\n'), 10) << one.output;
+  EXPECT_NE(one.output.find("bit by bit\nok   "), std::string::npos) << one.output;
+  EXPECT_GT(std::ranges::count(run_program("check b.h5 --all").output, '\n'), 10);
   const ProgramOutcome both = run_program("check b.h5 a.h5 --csv a.csv");
   EXPECT_EQ(both.code, 1) << both.output;
   EXPECT_EQ(run_program("check a.h5 b.h5").code, 1) << "in this order too";
   EXPECT_NE(both.output.find("b.h5:\nok   status"), std::string::npos) << both.output;
-  EXPECT_NE(both.output.find("\na.h5:\nok   status"), std::string::npos) << both.output;
+  EXPECT_NE(both.output.find("\na.h5:\nFAIL knot held"), std::string::npos) << both.output;
   EXPECT_NE(both.output.find("hagfish: a.h5: check failed: "), std::string::npos) << both.output;
   EXPECT_EQ(both.output.find("hagfish: b.h5:"), std::string::npos) << both.output;
 

@@ -81,7 +81,7 @@ TEST_F(ResumeTest, ABranchTakesOtherSettings) {
   EXPECT_EQ(b.rows("/trajectory/q").row(0), log("a.h5").rows("/trajectory/q").row(10));
   EXPECT_NE(b.root_text("scene").find("bending_stiffness = 1000"), std::string::npos);
   // All but what a run so short cannot show.
-  const std::string check = run_program("check b.h5").output;
+  const std::string check = run_program("check b.h5 --all").output;
   for (const char* finding : {"energy ledger", "force balance", "again"}) {
     EXPECT_NE(check.find(std::string("\nok   ") + finding), std::string::npos) << check;
   }

@@ -92,7 +92,8 @@ TEST_F(ProgramTest, AScriptThatTiesAnotherKnotEndsWithCode3AndNamesIt) {
   const ProgramOutcome run =
       run_program("run --preset quick --quiet --set expect.knot=4_1 --out a.h5");
   EXPECT_EQ(run.code, 3) << run.output;
-  EXPECT_NE(run.output.find("failed: the script ended with a 3_1, tied since "), std::string::npos)
+  EXPECT_NE(run.output.find("failed: the script ended with a knot (overhand, 3_1), tied since "),
+            std::string::npos)
       << run.output;
   EXPECT_NE(run.output.find(", but expect.knot = 4_1 at step "), std::string::npos) << run.output;
 }
@@ -100,7 +101,7 @@ TEST_F(ProgramTest, AScriptThatTiesAnotherKnotEndsWithCode3AndNamesIt) {
 TEST_F(ProgramTest, StopsWhenAPhaseHasEndedAndTellsTheKnotAsItGoes) {
   const ProgramOutcome run = run_program("run --preset quick --until form --out a.log");
   EXPECT_EQ(run.code, 0) << run.output;
-  EXPECT_NE(run.output.find(" s  knot 3_1  "), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find(" s  overhand, 3_1  "), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("tighten  t = "), std::string::npos) << run.output;
   EXPECT_EQ(run.output.find("slide    t = "), std::string::npos) << run.output;
   {
@@ -109,7 +110,7 @@ TEST_F(ProgramTest, StopsWhenAPhaseHasEndedAndTellsTheKnotAsItGoes) {
     EXPECT_GT(log.time.back(), 9);
   }
   // What was not reached is not judged.
-  const ProgramOutcome check = run_program("check a.log");
+  const ProgramOutcome check = run_program("check a.log --all");
   EXPECT_EQ(check.code, 0) << check.output;
   EXPECT_EQ(check.output.find("slide"), std::string::npos) << check.output;
   expect_refused("run --until tied --out b.h5", {"time.until=tied", "must be one of", "tighten"});
