@@ -73,7 +73,7 @@ struct Law {
   /// Whether muscles move the animal by their activations.
   bool drives_muscles = false;
   /// Its own table in [controller], empty where it has none.
-  std::string_view table = "";
+  std::string_view table = {};
 };
 
 /// All laws.

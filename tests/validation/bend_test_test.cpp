@@ -61,7 +61,7 @@ BendTest bend(const Model& model, Axis axis, double from, double to, double curv
 
 TEST(VirtualBendTest, GivesBackTheSpecimensStiffnessAndDamping) {
   for (const char* bodies : {"100", "200"}) {
-    const auto [scene, specimen] =
+    const auto [scene, specimen, _] =
         read_scene(std::string(HAGFISH_DATA_DIR) + "/living_overhand.toml",
                    {std::string("model.bodies=") + bodies});
     const Model model = make_hagfish(specimen, scene);

@@ -198,9 +198,8 @@ TEST(JointNames, FollowTheVelocities) {
 }
 
 TEST(Hagfish, MassRatioIsGeometricAndKeepsTheWhole) {
-  const auto [scene, animal] = stored_scene({"model.mass_ratio=10000"});
+  const auto [scene, animal, fish] = stored_scene({"model.mass_ratio=10000"});
   const Model even = table1_hagfish();
-  const Model fish = make_hagfish(animal, scene);
   const double first = fish.bodies.front().mass / even.bodies.front().mass;
   const int last = fish.body_count() - 1;
   double whole = 0;
@@ -213,9 +212,8 @@ TEST(Hagfish, MassRatioIsGeometricAndKeepsTheWhole) {
 }
 
 TEST(Hagfish, LimitScaleIsOnEveryLimitBelowTheLargest) {
-  const auto [scene, animal] = stored_scene({"model.limit_scale=1.5"});
+  const auto [scene, animal, fish] = stored_scene({"model.limit_scale=1.5"});
   const Model even = table1_hagfish();
-  const Model fish = make_hagfish(animal, scene);
   for (std::size_t k = 0; k < fish.hinges.size(); ++k) {
     const double scaled = std::min(1.5 * even.hinges[k].upper, scene.model.largest_limit);
     // The two sides round twice each.

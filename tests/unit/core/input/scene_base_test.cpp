@@ -66,7 +66,7 @@ TEST(SceneBase, FilesAreRelativeToTheOneThatNamesThem) {
   folder.write("animals/animal.toml", plain_specimen);
   folder.write("shared/deep.toml", "specimen = '../animals/animal.toml'\ntitle = 'deep'\n");
   folder.write("shared/base.toml", "base = 'deep.toml'\n[time]\nduration = 5\n");
-  const auto [scene, animal] = read_scene(
+  const auto [scene, animal, _] = read_scene(
       folder.write("own/deep/s.toml", "base = '../../shared/base.toml'\n[time]\nstep = 0.004\n"));
   EXPECT_EQ(animal.length, 40);
   EXPECT_EQ(scene.specimen, "../animals/animal.toml");

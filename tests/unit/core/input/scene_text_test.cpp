@@ -157,7 +157,7 @@ ResolvedScene odd_scene() {
 
 TEST(SceneText, ResolvedTextGivesTheSameScene) {
   const std::vector<std::string> image = {"mirror=true", "script.noise=0.3"};
-  for (const auto& [scene, specimen] :
+  for (const auto& [scene, specimen, _] :
        {odd_scene(), read_scene(data + "/table1.toml"),
         read_scene(data + "/overhand_waypoints.toml"), read_scene(data + "/overhand_reverse.toml"),
         read_scene(data + "/pull_morsel.toml"), read_scene(data + "/living_overhand_free.toml"),
@@ -171,7 +171,7 @@ TEST(SceneText, ResolvedTextGivesTheSameScene) {
 }
 
 TEST(SceneText, DefaultsAreThoseOfSettings) {
-  const auto [scene, specimen] = read_scene_text(plain_scene, "plain");
+  const auto [scene, specimen, _] = read_scene_text(plain_scene, "plain");
   EXPECT_TRUE(Bits(scene, specimen) == Bits(Scene{}, specimen));
 }
 

@@ -11,7 +11,7 @@ namespace hagfish::scene_reader_test {
 const std::string data = HAGFISH_DATA_DIR;
 
 TEST(SceneReader, Table1FileIsThePapersScene) {
-  const auto [scene, specimen] = read_scene(data + "/table1.toml");
+  const auto [scene, specimen, _] = read_scene(data + "/table1.toml");
   EXPECT_EQ(scene.specimen, "specimens/pacific_hagfish.toml");
   EXPECT_EQ(specimen.length, 42.4);
   EXPECT_TRUE(scene.clamp_head);
@@ -36,7 +36,7 @@ TEST(SceneReader, Table1FileIsThePapersScene) {
 }
 
 TEST(SceneReader, WaypointFileIsInBodyLengths) {
-  const auto [scene, specimen] = read_scene(data + "/overhand_waypoints.toml");
+  const auto [scene, specimen, _] = read_scene(data + "/overhand_waypoints.toml");
   EXPECT_EQ(scene.script.kind, ScriptSettings::Kind::position);
   EXPECT_EQ(scene.script.spring, 3000);
   EXPECT_EQ(scene.script.damper, 60);
@@ -48,7 +48,7 @@ TEST(SceneReader, WaypointFileIsInBodyLengths) {
 
 TEST(SceneReader, LengthsMayBeSharesOfTheBodyOrDiameters) {
   // Of 40 cm; 5 and 4 cm around at a fifth from either end, linear between: 4.5 in the mean.
-  const auto [scene, specimen] = read_scene_text(
+  const auto [scene, specimen, _] = read_scene_text(
       "[controller]\ntail_through = \"0.25 L\"\ntight_span = \"12 D\"\nrelease_at = 2\n"
       "[contact]\nleast_arc = \"1.5 D\"\n" +
           plain_scene,
@@ -73,7 +73,7 @@ TEST(SceneReader, TellsLengthsThatAreNone) {
 }
 
 TEST(SceneReader, OverridesReachSceneAndSpecimen) {
-  const auto [scene, specimen] =
+  const auto [scene, specimen, _] =
       read_scene(data + "/table1.toml",
                  {"time.step=0.005", "title=a b", "constraints.activation=violated",
                   "controller.tighten_tail.b=1", "specimen.mass=90", "script.kind=none"});
