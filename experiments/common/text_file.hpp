@@ -9,12 +9,6 @@ namespace hagfish {
 
 inline constexpr const char* force_help = "replace an existing file";
 
-/// A file that could not be written, for no fault of the command line.
-class WriteError : public FileError {
- public:
-  using FileError::FileError;
-};
-
 /// Reserves `file` before the work, as OutputFile does and throwing as it does.
 class TextFile {
  public:

@@ -26,7 +26,7 @@ void AppendedFile::add(std::string_view text) {
     const ssize_t written = ::write(descriptor_, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) {
-      throw FileError(file_.string() + ": cannot be written: " + std::strerror(errno));
+      throw WriteError(file_.string() + ": cannot be written: " + std::strerror(errno));
     }
     text.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -16,7 +16,7 @@ class AppendedFile {
   AppendedFile& operator=(const AppendedFile&) = delete;
 
   /// Adds all of `text` behind what the file holds: of lines added one by one, a kill leaves whole
-  /// ones but for the last. Throws FileError where that fails.
+  /// ones but for the last. Throws WriteError where that fails.
   void add(std::string_view text);
 
  private:

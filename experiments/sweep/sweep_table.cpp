@@ -76,7 +76,12 @@ void claim_folder(const fs::path& folder, const std::string& identity) {
     // By a link, which one process of several makes, with all of the text.
     const fs::path own = fmt::format("{}.{}.new", file.string(), ::getpid());
     fs::remove(own, error);
-    AppendedFile(own).add(identity);
+    try {
+      AppendedFile(own).add(identity);
+    } catch (const FileError&) {
+      fs::remove(own, error);
+      throw;
+    }
     const bool made = ::link(own.c_str(), file.c_str()) == 0 || errno == EEXIST;
     const int reason = errno;
     fs::remove(own, error);

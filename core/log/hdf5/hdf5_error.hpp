@@ -16,6 +16,12 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A file that could not be written, for no fault of the command line.
+class WriteError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
 /// Opens files where the system has no locks, too, and lets others read what is open.
 inline H5::FileAccPropList without_locks() {
   H5::FileAccPropList access;

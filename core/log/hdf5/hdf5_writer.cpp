@@ -211,7 +211,7 @@ void Hdf5Writer::save(const std::filesystem::path& file) const {
     const std::string reason = std::strerror(errno);
     std::error_code ignored;
     std::filesystem::remove(fresh, ignored);
-    throw FileError(file.string() + ": cannot be " + what + ": " + reason);
+    throw WriteError(file.string() + ": cannot be " + what + ": " + reason);
   };
   errno = 0;
   std::ofstream stream(fresh, std::ios::binary);

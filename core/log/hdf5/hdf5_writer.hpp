@@ -99,7 +99,7 @@ class Hdf5Writer {
   void close();
 
   /// Writes all of it to `file`, by way of a second file, so that a crash leaves the last one
-  /// saved. Only of a new file.
+  /// saved. Only of a new file. Throws WriteError where the disk is full.
   void save(const std::filesystem::path& file) const;
 
  private:

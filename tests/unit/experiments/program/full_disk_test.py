@@ -22,6 +22,8 @@ COMMANDS = {
     "picture": ["picture", "a.h5", "--out", "out/a.png"],
     "movie": ["movie", "a.h5", "--out", "out/a.mp4", "--size", "320x180"],
     "figures": ["figures", "a.h5", "--out", "out/figures"],
+    "sweep": ["sweep", "grid.toml", "--quiet", "--out", "out/sweep"],
+    "run": ["run", "table1", "--set", "time.duration=0.1", "--quiet", "--out", "out/b.h5"],
 }
 REPEATED = (".png", ".mp4", ".html", ".csv", ".xml", ".md", ".txt")  # files that are the same each time
 
@@ -30,6 +32,7 @@ REPEATED = (".png", ".mp4", ".html", ".csv", ".xml", ".md", ".txt")  # files tha
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("disk")
     logged(folder, "table1", "--preset", "quick", "--set", "time.duration=0.5")
+    (folder / "grid.toml").write_text('scene = "table1"\nset = ["time.duration=0.1"]\n[[axis]]\n"drag.normal" = [1, 2]\n')
     return folder
 
 
@@ -80,13 +83,14 @@ def test_a_quota(folder, name):
         judge(done, made(out), full)
 
 
-@pytest.mark.parametrize("name", ["export", "check", "picture", "movie", "figures"])
+@pytest.mark.parametrize("name", ["export", "check", "picture", "movie", "figures", "run", "sweep"])
 def test_a_full_disk(folder, name):
     out = emptied(folder / "out")
     outcome(folder, *COMMANDS[name])
     full = made(out)
     emptied(out)
-    for size in (64,) if name == "figures" else (1, 4, 64, 400):  # kB; 0 is no bound
+    sizes = {"figures": (64,), "run": (64,), "sweep": (1,)}  # kB; 0 is no bound
+    for size in sizes.get(name, (1, 4, 64, 400)):
         with small_disk(out, size):
             judge(outcome(folder, *COMMANDS[name]), made(out), full)
 
