@@ -2,7 +2,7 @@
 
 import pytest
 
-from films import WITH, let_go
+from films import WITH, let_go, write_log_film
 from program import hagfish, outcome, refused
 
 FACTOR = {"stiffness EI": 0.5, "damping": 0.7, "drag": 1.6}
@@ -25,6 +25,20 @@ def test_a_body_let_go_tells_its_animal(films, film, options):
         low, high = float(words[words.index("to") - 1]), float(words[words.index("to") + 1])
         assert low <= true <= high, line
         assert high / low < 2, line
+
+
+def test_a_stiff_body_that_beats_often_is_found(films):
+    """All of its film at once fits best by a wrong number of beats."""
+    let_go(films, "stiff", dict(zip(FACTOR, (4.83, 1.62, 0.627))), 0.06, False, 150, 16)
+    said = hagfish(films, "animal", "stiff.csv", *WITH)
+    assert float(said.split("stiffness EI: ")[1].split()[0]) == pytest.approx(4.83, rel=0.03)
+
+
+def test_a_body_that_muscles_move_is_told(films):
+    outcome(films, "run", "living_overhand", "--log", "frames", "--out", "own.h5", "--set", "time.duration=1.2", "--quiet")
+    write_log_film(films, "own")
+    done = outcome(films, "animal", "own.csv", *WITH)
+    assert done.returncode == 3 and "muscles or another force move the body" in done.stdout
 
 
 def test_an_animal_of_another_length_is_named(films):
