@@ -34,6 +34,9 @@ constexpr std::array<std::array<double, AnimalFit::traits>, 4> first_factors{
 // Of the film, that is fitted before all of it: a stiff body beats many times in a long film, and
 // steps stop where a wrong number of beats fits best.
 constexpr double early_share = 0.25;
+// Of a run off the film over shapes off it, where the run is the film's; of films without noise, a
+// share of the length, which few bodies leave wrong.
+constexpr double most_misfit = 1.3, few_bodies = 5e-4;
 constexpr double settled_at = 1e-4;  // relative change of the cost
 // Steps of differences: of a factor's logarithm, of a bend (rad per body length), and of rates
 // (1/s). Far above the rounding of a run, far below what shapes are curved by.
@@ -374,6 +377,7 @@ AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, FilmHead h
   found.shapes = fit.rms;
   found.settled = best->settled;
   found.rms = std::sqrt(best->residual.squaredNorm() / static_cast<double>(points.at.cols()));
+  found.moves_alike = found.rms < most_misfit * fit.rms + few_bodies * model.length();
   if (const auto seen = run(best->x)) found.moved = moved_by(*seen, points);
   const Eigen::Index n = run.size();
   const Eigen::MatrixXd spread = best->normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));

@@ -27,9 +27,8 @@ struct AnimalFit {
   double moved = 0;   ///< rms distance of the run's points from where they begin, cm
   /// Whether the last change made less than a ten-thousandth of a difference, or none led nearer.
   bool settled = false;
-  /// Whether a run of a body without muscles comes as near to the film as shapes do.
-  bool moves_alike() const { return rms < most_misfit * shapes; }
-  static constexpr double most_misfit = 2;
+  /// Whether the run, of a body without muscles, comes about as near to the film as shapes do.
+  bool moves_alike = false;
 };
 
 /// Highest over lowest value of an interval of 90 % within which a film is said to tell a trait. A

@@ -74,7 +74,7 @@ int animal(const AnimalOptions& options) {
   fmt::print(
       "the run is {:.2g} cm from the film (rms){}\n", found.rms,
       !found.settled ? ", and not yet as near as can be: do not use it"
-      : found.moves_alike()
+      : found.moves_alike
           ? ""
           : fmt::format(", whose own shapes are within {:.2g} cm: muscles or another force "
                         "move the body, or a shorter film (--until) tells more: do not use it",
@@ -82,7 +82,7 @@ int animal(const AnimalOptions& options) {
   fmt::print(
       "true where nothing but the body, its mass and the water moves it: an animal that is dead, "
       "asleep or let go\n");
-  return found.settled && found.moves_alike() ? exit_code::done : not_fitted;
+  return found.settled && found.moves_alike ? exit_code::done : not_fitted;
 }
 
 }  // namespace

@@ -396,13 +396,8 @@ def let_go(folder: Path, name: str, factor: dict[str, float], bend: float, flat:
                 f"specimen.passive.bending_stiffness={[stiffness] * 4}", f"specimen.passive.bending_damping={[damping] * 4}"]
     hagfish(folder, "run", "table1", "--out", f"{name}.h5", "--qp", "active-set", "--log", "frames", "--force", "--quiet",
             *(word for setting in settings for word in ("--set", setting)))  # nothing is tied, which is exit code 3
-    write_log_film(folder, name, flat, seed)
-
-
-def write_log_film(folder: Path, name: str, flat: bool = False, seed: int = 1) -> None:
-    """NAME.csv of NAME.h5: some seventeen of its bodies' centres, half a millimetre off."""
     with h5py.File(folder / f"{name}.h5") as log:
-        time, place, bodies = log["trajectory/time"][()], log["trajectory/position"][()], len(log["model/mass"])
+        time, place = log["trajectory/time"][()], log["trajectory/position"][()]
     points = slice(None, None, bodies // 16)
     place = (place + NOISE / 2 * np.random.default_rng(seed).standard_normal(place.shape))[:, points, :2 if flat else 3]
     s = ((np.arange(bodies) + 0.5) / bodies * LENGTH)[points]

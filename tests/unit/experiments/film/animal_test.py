@@ -2,7 +2,7 @@
 
 import pytest
 
-from films import WITH, let_go, write_log_film
+from films import WITH, let_go
 from program import hagfish, outcome, refused
 
 FACTOR = {"stiffness EI": 0.5, "damping": 0.7, "drag": 1.6}
@@ -34,11 +34,12 @@ def test_a_stiff_body_that_beats_often_is_found(films):
     assert float(said.split("stiffness EI: ")[1].split()[0]) == pytest.approx(4.83, rel=0.03)
 
 
-def test_a_body_that_muscles_move_is_told(films):
-    outcome(films, "run", "living_overhand", "--log", "frames", "--out", "own.h5", "--set", "time.duration=1.2", "--quiet")
-    write_log_film(films, "own")
-    done = outcome(films, "animal", "own.csv", *WITH)
-    assert done.returncode == 3 and "muscles or another force move the body" in done.stdout
+def test_a_film_that_no_such_body_moves_like_is_refused(films):
+    heading, *rows = (films / "letgo.csv").read_text().splitlines()
+    backwards = [f"{2 - float(time):.6g},{rest}" for time, _, rest in (row.partition(",") for row in rows)]
+    (films / "back.csv").write_text("\n".join([heading, *backwards]) + "\n")
+    done = outcome(films, "animal", "back.csv", *WITH)
+    assert done.returncode == 3 and "whose own shapes are within" in done.stdout
 
 
 def test_an_animal_of_another_length_is_named(films):
