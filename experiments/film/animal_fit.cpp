@@ -31,6 +31,12 @@ constexpr double first_damping = 1e-3, easing = 0.2;  // of Levenberg and Marqua
 // they have in common is told by little, and steps from one start stop in a valley.
 constexpr std::array<std::array<double, AnimalFit::traits>, 4> first_factors{
     {{1, 1, 1}, {0.2, 0.2, 0.3}, {5, 5, 3}, {0.2, 0.2, 2}}};
+// Of the film, that is fitted before all of it: a stiff body beats many times in a long film, and
+// steps stop where a wrong number of beats fits best.
+constexpr double early_share = 0.25;
+// Of a run off the film over shapes off it, where the run is the film's; of films without noise, a
+// share of the length, which few bodies leave wrong.
+constexpr double most_misfit = 1.3, few_bodies = 5e-4;
 constexpr double settled_at = 1e-4;  // relative change of the cost
 // Steps of differences: of a factor's logarithm, of a bend (rad per body length), and of rates
 // (1/s). Far above the rounding of a run, far below what shapes are curved by.
@@ -59,6 +65,20 @@ Points points_used(const Film& film, const FilmFit& fit) {
   points.at.resize(3, static_cast<Eigen::Index>(all.size()));
   for (std::size_t k = 0; k < all.size(); ++k) points.at.col(static_cast<Eigen::Index>(k)) = all[k];
   return points;
+}
+
+/// Those of the first `share` of the time.
+Points first_part(const Points& points, double share) {
+  Points part;
+  Eigen::Index count = 0;
+  for (std::size_t f = 0; f < points.time.size() && points.time[f] <= share * points.time.back();
+       ++f) {
+    part.place.push_back(points.place[f]);
+    part.time.push_back(points.time[f]);
+    count += static_cast<Eigen::Index>(points.place[f].size());
+  }
+  part.at = points.at.leftCols(count);
+  return part;
 }
 
 /// Off the film's points by the nearest rigid motion, a point after the other, cm; a film in two
@@ -318,28 +338,46 @@ AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, FilmHead h
         fit.program.value.front().row(axis).transpose();
   }
   const double dimensions = film.planar ? 2 : 3, motion = film.planar ? 3 : 6;
-  const double compared = dimensions * static_cast<double>(points.at.cols());
   const double fitted = static_cast<double>(run.size()) + motion;
-  if (compared < 2 * fitted) throw InputError("has too few points to find an animal's traits");
-  const Problem problem{run, points, compared - fitted, step};
+  const auto compared = [&](const Points& of) {
+    return dimensions * static_cast<double>(of.at.cols());
+  };
+  if (compared(points) < 2 * fitted) {
+    throw InputError("has too few points to find an animal's traits");
+  }
   int changes = 0;
   const auto count = [&] {
     if (watch) watch(++changes);
   };
-  std::optional<Nearest> best;
+  std::vector<Eigen::VectorXd> starts;
   for (const auto& first : first_factors) {
     for (int k = 0; k < AnimalFit::traits; ++k) start[k] = std::log(first[k]);
-    const auto found = nearest_from(problem, start, trial_changes, count);
-    if (found && (!best || found->residual.squaredNorm() < best->residual.squaredNorm())) {
-      best = found;
-    }
+    starts.push_back(start);
   }
+  const auto best_of = [&](const Runs& runs, const Points& of) {
+    const Problem problem{runs, of, compared(of) - fitted, step};
+    std::optional<Nearest> best;
+    for (const Eigen::VectorXd& x : starts) {
+      const auto found = nearest_from(problem, x, trial_changes, count);
+      if (found && (!best || found->residual.squaredNorm() < best->residual.squaredNorm())) {
+        best = found;
+      }
+    }
+    if (best) best = nearest_from(problem, best->x, most_changes, count);
+    return best;
+  };
+  if (const Points early = first_part(points, early_share); compared(early) >= 2 * fitted) {
+    const Runs early_run(scene, film, head, early);
+    if (const auto found = best_of(early_run, early)) starts.push_back(found->x);
+  }
+  const std::optional<Nearest> best = best_of(run, points);
   if (!best) throw InputError("no run begins as the film does: check units and scale");
-  best = nearest_from(problem, best->x, most_changes, count);
   AnimalFit found;
   found.scale = fit.scale;
+  found.shapes = fit.rms;
   found.settled = best->settled;
   found.rms = std::sqrt(best->residual.squaredNorm() / static_cast<double>(points.at.cols()));
+  found.moves_alike = found.rms < most_misfit * fit.rms + few_bodies * model.length();
   if (const auto seen = run(best->x)) found.moved = moved_by(*seen, points);
   const Eigen::Index n = run.size();
   const Eigen::MatrixXd spread = best->normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));

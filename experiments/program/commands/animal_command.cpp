@@ -71,12 +71,18 @@ int animal(const AnimalOptions& options) {
   tell("damping", found.trait[AnimalFit::damping],
        first(resolved.specimen.bending_damping, scene.model.bending_damping), "dyn cm^2 s");
   tell("drag", found.trait[AnimalFit::drag], scene.drag.normal, "g/(s cm) across the body");
-  fmt::print("the run is {:.2g} cm from the film (rms){}\n", found.rms,
-             found.settled ? "" : ", and not yet as near as can be: do not use it");
+  fmt::print(
+      "the run is {:.2g} cm from the film (rms){}\n", found.rms,
+      !found.settled ? ", and not yet as near as can be: do not use it"
+      : found.moves_alike
+          ? ""
+          : fmt::format(", whose own shapes are within {:.2g} cm: muscles or another force "
+                        "move the body, or a shorter film (--until) tells more: do not use it",
+                        found.shapes));
   fmt::print(
       "true where nothing but the body, its mass and the water moves it: an animal that is dead, "
       "asleep or let go\n");
-  return found.settled ? exit_code::done : not_fitted;
+  return found.settled && found.moves_alike ? exit_code::done : not_fitted;
 }
 
 }  // namespace

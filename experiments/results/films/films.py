@@ -396,13 +396,12 @@ def let_go(folder: Path, name: str, factor: dict[str, float], bend: float, flat:
                 f"specimen.passive.bending_stiffness={[stiffness] * 4}", f"specimen.passive.bending_damping={[damping] * 4}"]
     hagfish(folder, "run", "table1", "--out", f"{name}.h5", "--qp", "active-set", "--log", "frames", "--force", "--quiet",
             *(word for setting in settings for word in ("--set", setting)))  # nothing is tied, which is exit code 3
-    points = slice(None, None, bodies // 16)
     with h5py.File(folder / f"{name}.h5") as log:
-        time, place = log["trajectory/time"][()], log["trajectory/position"][:, points]
+        time, place = log["trajectory/time"][()], log["trajectory/position"][()]
+    points = slice(None, None, bodies // 16)
+    place = (place + NOISE / 2 * np.random.default_rng(seed).standard_normal(place.shape))[:, points, :2 if flat else 3]
     s = ((np.arange(bodies) + 0.5) / bodies * LENGTH)[points]
-    write_film(folder / f"{name}.csv", time, s,
-               (place + NOISE / 2 * np.random.default_rng(seed).standard_normal(place.shape))[..., :2 if flat else 3],
-               "time_s,s_cm,x_cm,y_cm" + ("" if flat else ",z_cm"))
+    write_film(folder / f"{name}.csv", time, s, place, "time_s,s_cm,x_cm,y_cm" + ("" if flat else ",z_cm"))
 
 
 def animals(folder: Path, count: int = 18) -> list[dict]:
