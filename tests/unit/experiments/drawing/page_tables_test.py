@@ -61,7 +61,7 @@ MADE_AGAIN = {  # tables of pages by what makes them of other tables that are he
     "reflex": (lambda folder: reflex.main(folder, RESULTS / "reflex/reflex.csv"), 16),
     "knot_in_numbers": (knot_in_numbers.main, 2),
     "leverage": (lambda folder: leverage.page(from_data("leverage", "leverage_runs", "leverage_time")(folder)), 4),
-    "films": (lambda folder: films.write_summaries(from_data("films", *(f"films_{part.__name__}" for part in films.PARTS))(folder)), 7)}
+    "films": (lambda folder: films.write_summaries(from_data("films", *(f"films_{part.__name__}" for part in films.PARTS))(folder)), 8)}
 
 
 @pytest.mark.parametrize("page", MADE_AGAIN)
