@@ -55,14 +55,15 @@ std::string trust(const LogContents& log, const Judge& judge) {
   std::vector<std::string> unmet;
   const std::vector<Finding> findings = full ? audit(log) : judge.findings();
   for (const Finding& finding : findings) {
-    if (!finding.passed) unmet.push_back(finding.name);
+    const bool told = !unmet.empty() && unmet.back() == finding.name;
+    if (!finding.passed && !told) unmet.push_back(finding.name);
   }
   const std::string text = log.h5.root_text("warnings");
   const auto warnings = text.empty() ? 0 : std::ranges::count(text, '\n') + 1;
   return fmt::format(
       "{}{}{}",
       unmet.empty()
-          ? fmt::format("yes: it meets all {} checks", findings.size())
+          ? fmt::format("yes, it meets all {} checks", findings.size())
           : fmt::format("no, not before you know why it fails: {}", fmt::join(unmet, ", ")),
       full ? "" : "; not all can be made of a log of frames",
       warnings > 0 ? fmt::format("; {} warnings are in `hagfish info`", warnings) : "");
@@ -111,7 +112,8 @@ std::vector<std::string> in_words(const LogContents& log) {
     const bool own =
         scene.model.passive == PassiveSource::specimen && !animal.bending_stiffness.empty();
     lines.push_back(fmt::format(
-        "they follow the body's rigidity EI, here {:g} N cm^2; of hagfish 0.3 to 12 are known",
+        "torques grow with the body's rigidity EI: here {:g} N cm^2, of hagfish 0.3 to 12 are "
+        "known",
         1e-5 * (own ? animal.bending_stiffness.front() : scene.model.bending_stiffness)));
   }
   lines.push_back("trust it: " + trust(log, judge));
@@ -125,18 +127,16 @@ int figures(const FiguresOptions& options) {
   const std::string out = options.out.empty()
                               ? (file.parent_path() / (file.stem().string() + "_figures")).string()
                               : options.out;
-  const std::vector<std::string> words = in_words(log);
-  fmt::print("{}\n\n", fmt::join(words, "\n"));
-  std::fflush(stdout);  // before what the script prints
   const int code = run_script("of_log.py", {options.log, own_program().string(), out});
   if (code == 0) {
+    const std::vector<std::string> words = in_words(log);
     const std::string report = out + "/report.md";
     const bool strip = std::filesystem::exists(out + "/figure7.png");
     TextFile(report, true)
         .write(fmt::format("# {}\n\n{}- {}\n", words.front(),
                            strip ? "![The run](figure7.png)\n\n" : "",
                            fmt::join(words.begin() + 1, words.end(), "\n- ")));
-    fmt::print("{}\n", printable(report));
+    fmt::print("{}\n\n{}\n", printable(report), fmt::join(words, "\n"));
   }
   return code == exit_code::failed || code == 0 ? code : exit_code::bad_input;
 }

@@ -18,7 +18,7 @@ def test_all_figures_of_a_run(tmp_path):
     assert "42.4" in (tmp_path / "a_figures/summary.md").read_text()
     report = (tmp_path / "a_figures/report.md").read_text()
     lines = dict(re.findall(r"^- (.+?): (.+)$", report, re.MULTILINE))
-    assert "![The run](figure7.png)" in report and said.startswith("Overhand knot, tied by the animal itself\nanimal: ")
+    assert "![The run](figure7.png)" in report and "\nOverhand knot, tied by the animal itself\nanimal: " in said
     assert 8 <= report.count("\n- ") <= 10 and lines["knot"] == "overhand, 3_1" and lines["trust it"].startswith("yes")
     with h5py.File(tmp_path / "a.h5") as log:
         time, phase = log["trajectory/time"][()], log["trajectory/phase"][()]
