@@ -311,7 +311,7 @@ class Page {
   typed(field, input) {
     input.dataset.typed = "yes";
     if (/\d,\d/.test(input.value)) { // in some languages decimals, in others thousands
-      this.refused({ what: "setting", text: `${field.words} ${input.value}: has a comma; decimals follow a point, as in 0.5` });
+      this.heard.refused({ what: "setting", text: `${field.words} ${input.value}: has a comma; decimals follow a point, as in 0.5` });
       return;
     }
     let value = literal(input.value);
