@@ -36,8 +36,8 @@ export class Simulator {
   lines(name: "scenes" | "phases"): string[];
   /** Of the scene that runs: all of it as TOML, its title, its animal, warnings since the last call. */
   text(name: "toml" | "title" | "specimen" | "warnings"): string;
-  /** Of the two numbers of the array "knot". */
-  text(name: "knot_name", determinant: number, v2: number): string;
+  /** A knot as people call it, of the two numbers of the array "knot". */
+  text(name: "knot_words", determinant: number, v2: number): string;
   /** An array of the frame or the animal, good until the next call; empty where there is none of that name. */
   array(name: string): Float64Array;
 }

@@ -75,6 +75,12 @@ def test_the_package_runs_where_its_tarball_is_installed(tmp_path):
     told = {"cwd": tmp_path, "check": True, "capture_output": True, "text": True}
     tarball = subprocess.run(["npm", "pack", WEB / "npm"], **told).stdout.strip()
     subprocess.run(["npm", "install", "--offline", tmp_path / tarball], **told)
+    types = (WEB / "npm/hagfish.d.ts").read_text()  # name no function that the simulator lacks
+    named = set(re.findall(r"^  (live_\w+)\(", types, re.MULTILINE))
+    for call in re.findall(r"^  (?:text|lines)\(name: ([^,)]+)", types, re.MULTILINE):
+        named |= {f"live_{name}" for name in re.findall(r'"(\w+)"', call)}
+    (tmp_path / "has.mjs").write_text('import { simulator } from "hagfish"; console.log(Object.keys((await simulator()).calls).join());')
+    assert len(named) > 10 and named <= set(subprocess.run([NODE, "has.mjs"], **told).stdout.strip().split(","))
     (tmp_path / "run.mjs").write_text(f'import * as hagfish from "hagfish"; console.log(await ({DIGEST})(hagfish));')
     assert subprocess.run([NODE, "run.mjs"], **told).stdout.strip() == there
     if CHROMIUM is None:
