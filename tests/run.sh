@@ -13,7 +13,8 @@ if [[ ${1-} == --quick ]]; then
   chosen=(-L quick)
 fi
 bash experiments/setup.sh "${targets[@]}"
-jobs=$(nproc) # which would heed OMP_NUM_THREADS
+source experiments/cores.sh
+jobs=$(cores)
 # Serial BLAS, so that runs repeat and tests do not fight for the cores.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 ctest --preset "${PRESET:-release}" --parallel "$jobs" "${chosen[@]}" "$@"

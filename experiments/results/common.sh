@@ -5,6 +5,7 @@
 # sweep`), out, hagfish (the program), draw and swept. When the script ends, in whatever way, it says what is in out
 # and how long it took; building counts, and what an earlier run of it left does not.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+source "$root/experiments/cores.sh"
 page=$(cd "$(dirname "$0")" && pwd)
 # shellcheck disable=SC2034 # for the studies
 grids=$page/grids
@@ -12,7 +13,7 @@ out=${1:-$root/out/$(basename "$page")}
 elapsed() {
   printf '\nIn %s:\n' "$out"
   ls "$out"
-  echo "$(basename "$page") took $((SECONDS / 60)) min $((SECONDS % 60)) s on $(env -u OMP_NUM_THREADS nproc) cores"
+  echo "$(basename "$page") took $((SECONDS / 60)) min $((SECONDS % 60)) s on $(cores) cores"
 }
 mkdir -p "$out"
 out=$(cd "$out" && pwd)

@@ -3,7 +3,7 @@
 # were stopped. Comes after inputs=(...), files that results depend on besides the program, if any. Leaves runs (a folder) and cores besides.
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-cores=$(env -u OMP_NUM_THREADS nproc) # which it would take for their number
+cores=$(cores)
 export runs=$out/runs
 
 # Results of another program or of other inputs do not mix with this one's.
