@@ -30,6 +30,8 @@ def test_all_figures_of_a_run(tmp_path):
     largest = [np.nanmax(moment[a + 1:b + 1]) for a, b in ((0, begin["slide"]), (begin["slide"], begin["release"]))]
     assert lines["torques of a joint"] == "up to {:.3g} N cm tying, {:.3g} N cm sliding".format(*largest)
     assert not re.search("KKT|residual", report)
+    checks = (tmp_path / "a_figures/check.csv").read_text().splitlines()[1:]
+    assert lines["trust it"].startswith(f"yes, it meets all {len(checks)} checks")
 
 
 def test_a_run_that_never_slid_has_the_rest(tmp_path):
