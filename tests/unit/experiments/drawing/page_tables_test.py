@@ -17,12 +17,14 @@ import claims
 import departures
 import design
 import films
+import haste
 import knot_in_numbers
 import knots
 import leverage
 import living
 import reflex
 import sliding_map
+import slit
 import stability
 import sweep_columns
 import thigmotaxis
@@ -193,6 +195,37 @@ def test_ratios_of_steps():
     assert table["knotted step: MuJoCo over core, 100 steps a start"] == ["5.0", "5.0"]
     assert table["knotted step, over 100 bodies"] == ["0.25", "1.00"]
     assert len(table) == len(rows)
+
+
+def test_builds_beside_mujoco(tmp_path):
+    """Steps here of 2 µs for each hundred bodies and half of that without contact; MuJoCo's of 20 and 3, and in WebAssembly of 7 and 5."""
+    entry = lambda name, bodies, time, residual=0.0: {"aggregate_name": "median", "run_name": f"{name}/{bodies}", "cpu_time": time, "residual": residual}
+    measured = [entry(*of) for n in (100, 400) for of in (
+        ("core/step_knotted_active-set:10", n, n / 50), ("core/step_free:10", n, n / 100), ("mujoco/step_knotted:newton:10", n, n / 5),
+        ("mujoco/step_knotted:pgs:10", n, n / 10, 0.5), ("mujoco/step_free:10", n, 3 * n / 100))]
+    assert benchmarks.native_rows("here", measured) == [["here", "100", "2", "10.0", "newton", "1", "3.0"], ["here", "400", "8", "10.0", "newton", "4", "3.0"]]
+    name = "simulator, integrator, solver, tolerance"
+    (tmp_path / "live.csv").write_text(f'"{name}","step without contact, µs","knotted step, µs"\nours,1,2\nslow,4,80\nquick,5,14\n')
+    assert benchmarks.web_row(tmp_path / "live.csv") == ["both in WebAssembly", "100", "2", "7.0", "quick", "1", "5.0"]
+
+
+def test_a_swimmers_speed_is_that_of_whole_waves(monkeypatch):
+    time = np.linspace(0, 10, 1001)
+    middle = np.stack([2 * time + np.sin(2 * np.pi * time / 0.7), np.cos(2 * np.pi * time / 0.7), 0 * time], axis=1)
+    log = {"/trajectory/time": time, "/trajectory/position": middle[:, None] + [[[0, 1, 0]], [[0, -1, 0]]][0]}
+    monkeypatch.setattr(slit, "HagfishLog", lambda path: log)
+    assert slit.swims("any", 0.7) == pytest.approx(2, abs=1e-3)
+
+
+def test_how_fast_an_animal_could_tie(tmp_path, monkeypatch):
+    """All tie at twice their speed and none at four times, where strong muscles help the smallest alone."""
+    outcome = ["ok" if of <= 2 or length == 25 and of == 4 and haste.HELPS[helps][1] > 1 else "failed" for _, length, of, helps in haste.CELLS]
+    monkeypatch.setattr(haste, "read_sweep", lambda path: type("Sweep", (), {"texts": {"outcome": outcome}}))
+    haste.make_table(tmp_path)
+    rows = read(tmp_path, "knot_in_numbers_haste")[1:]
+    lasts = haste.program_of(next(iter(haste.plots.SCENES)))[-1, 0]
+    assert rows[0][1:] == ["25", f"{lasts / 2:.3g}", f"{lasts / 4:.3g}", "muscles ten times as strong"]
+    assert rows[1][1:] == ["42", f"{lasts / 2:.3g}", f"{lasts / 4:.3g}", "neither"] and [row[0] for row in rows[-3:]] == ["all"] * 3
 
 
 def test_errors_while_tying(tmp_path):
