@@ -218,7 +218,7 @@ class Search {
     led_.push_back({std::move(body), Archive(options_.seed, options_.knot)});
   }
 
-  const Specimen& own_animal() const { return led_.front().body.resolved.specimen; }
+  const Specimen& own_animal() const { return led_.front().body.specimen; }
 
   /// By turns the animal's own body and, where a program must serve others, the thickest of these.
   LedBody& led_by(int number) { return led_[number % led_.size()]; }
@@ -511,7 +511,7 @@ std::string DesignOutcome::in_words() const {
 
 DesignOutcome design(const DesignOptions& options) {
   SoftBody own = soft_body(options.specimen);
-  const std::string why = too_short_for(own.resolved.specimen, options.knot);
+  const std::string why = too_short_for(own.specimen, options.knot);
   if (!why.empty()) throw InputError(why);
   claim(options);
   Search search(options, std::move(own));

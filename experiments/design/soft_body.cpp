@@ -20,7 +20,7 @@ constexpr double more_tail = 0.04;    // of the body, for which a later look is 
 
 /// The scene with a path.
 Scene led_along(const SoftBody& body, const TailPath& path, double step) {
-  Scene scene = body.resolved.scene;
+  Scene scene = body.scene;
   scene.script.waypoints = waypoints_of(path, body.model.length());
   scene.time.step = step;
   scene.expect.knot.clear();  // nothing is waited for
@@ -41,6 +41,7 @@ void lead_like(ResolvedScene& resolved, const Specimen& paper) {
                       &scene.model.twist_stiffness, &scene.model.twist_damping}) {
     *one *= force * beside.length * beside.length;
   }
+  resolved.model = make_hagfish(resolved.specimen, scene);
 }
 
 }  // namespace
@@ -64,8 +65,7 @@ SoftBody soft_body(const std::string& specimen) {
   if (!specimen.empty()) text += std::string("specimen = \"") + file + "\"\n";
   ResolvedScene resolved = read_scene_text(text, "design", set, {{file, specimen}});
   if (!specimen.empty()) lead_like(resolved, read_scene_text(led, "design").specimen);
-  Model model = make_hagfish(resolved.specimen, resolved.scene);
-  return {std::move(resolved), std::move(model)};
+  return resolved;
 }
 
 std::optional<KnotInvariants> Tying::tied() const {

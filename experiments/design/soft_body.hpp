@@ -17,10 +17,7 @@
 namespace hagfish {
 
 /// An animal and the scene in which its tail is led: that of overhand_waypoints without a path.
-struct SoftBody {
-  ResolvedScene resolved;
-  Model model;
-};
+using SoftBody = ResolvedScene;
 
 /// `specimen`: text of the animal's file; empty: that of the built-in scenes. Throws InputError.
 SoftBody soft_body(const std::string& specimen);

@@ -103,6 +103,7 @@ ResolvedScene passive(ResolvedScene resolved, FilmHead head, double duration) {
   scene.time.step = std::min(scene.time.step, longest_step);
   scene.time.duration = duration;
   scene.guard.energy_action = EnergyAction::warn;
+  resolved.model = make_hagfish(resolved.specimen, scene);
   return resolved;
 }
 
@@ -112,7 +113,7 @@ class Runs {
  public:
   Runs(const ResolvedScene& resolved, const Film& film, FilmHead head, const Points& points)
       : scene_(resolved.scene),
-        model_(make_hagfish(resolved.specimen, resolved.scene)),
+        model_(resolved.model),
         points_(points),
         axes_(film.planar ? 1 : 2),
         free_(head == FilmHead::free ? 3 * axes_ : 0) {}
@@ -316,8 +317,7 @@ AnimalFit fit_animal(const ResolvedScene& resolved, const Film& film, FilmHead h
   const double lasts = film.frames.back().time - film.frames.front().time;
   const ResolvedScene scene = passive(resolved, head, lasts + longest_step);
   const int times = std::min(static_cast<int>(film.frames.size()), most_times);
-  const FilmFit fit =
-      fit_film(make_hagfish(scene.specimen, scene.scene), film, head, times, stations);
+  const FilmFit fit = fit_film(scene.model, film, head, times, stations);
   const Points points = points_used(film, fit);
   const Runs run(scene, film, head, points);
   const Model& model = run.model();

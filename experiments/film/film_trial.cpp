@@ -87,11 +87,10 @@ std::vector<Eigen::Vector4d> first_bends(const Model& model, const CurvatureProg
 ResolvedScene scene_of_film(ResolvedScene base, const CurvatureProgram& program,
                             const FilmedKnot& knot, double stiffness) {
   Scene& scene = base.scene;
-  const Model model = make_hagfish(base.specimen, scene);
   scene.script.curvature = program;
   scene.active.stiffness = stiffness;
   scene.controller.tighten_from = program.time.back();
-  scene.start.bend = first_bends(model, program);
+  scene.start.bend = first_bends(base.model, program);
   if (knot.name != "0_1") {
     scene.expect.knot = knot.name;
     scene.expect.hand = knot.hand;
@@ -107,7 +106,7 @@ std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureP
   for (int k = 0; k < doublings && failed < 2; ++k, stiffness *= 2) {
     const ResolvedScene resolved = scene_of_film(base, program, knot, stiffness);
     const Scene& scene = resolved.scene;
-    const Model model = make_hagfish(resolved.specimen, scene);
+    const Model& model = resolved.model;
     const ProgramShape shape(model, program.station, false);
     std::vector<double> places;
     for (int b = 0; b < model.body_count(); ++b) places.push_back((b + 0.5) / model.body_count());

@@ -78,7 +78,6 @@ TipForce force_of(const Pull& pull, const Scene& scene, const Kinematics& kin) {
 
 LiveRun::LiveRun(ResolvedScene resolved)
     : resolved_(std::move(resolved)),
-      model_(make_hagfish(resolved_.specimen, resolved_.scene)),
       sim_(start(model_, resolved_.scene, "active-set")),
       means_(model_.nv()),
       moments_(model_),
@@ -93,9 +92,7 @@ void LiveRun::hold_pull() {
 }
 
 void LiveRun::change(ResolvedScene resolved) {
-  Model model = make_hagfish(resolved.specimen, resolved.scene);
-  change_scene(model, resolved_.scene, resolved.scene, sim_);
-  model_ = std::move(model);
+  change_scene(resolved.model, resolved_.scene, resolved.scene, sim_);
   resolved_ = std::move(resolved);
   hold_pull();
 }

@@ -60,7 +60,7 @@ class LiveRun {
   void put(std::string_view name, std::vector<double> values);
 
   ResolvedScene resolved_;
-  Model model_;
+  const Model& model_ = resolved_.model;
   Simulation sim_;
   Scene pulled_scene_;  ///< the scene by a law of its own, which pulls besides
   NamedLaw named_law_;

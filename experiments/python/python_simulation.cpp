@@ -81,7 +81,6 @@ void PythonSimulation::require_idle() const {
 
 PythonSimulation::PythonSimulation(const PythonRun& run)
     : resolved(resolve(run)),
-      model(resolved.model),
       sim(start(model, resolved.scene, run.qp)),
       control(record.control, model.nv()),
       slides(model),
@@ -98,7 +97,6 @@ PythonSimulation::PythonSimulation(const PythonRun& run)
 PythonSimulation::PythonSimulation(const PythonSimulation& other, const py::object& law,
                                    const std::vector<std::string>& set)
     : resolved(changed(other.resolved, set)),
-      model(resolved.model),
       sim(other.sim),
       control(record.control, model.nv()),
       slides(other.slides),

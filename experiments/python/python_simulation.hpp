@@ -64,7 +64,7 @@ class PythonSimulation {
   double time() const { return time_of(sim, resolved.scene); }
 
   ResolvedScene resolved;
-  const Model model;
+  const Model& model = resolved.model;
   Simulation sim;
   StepRecord record;
   // What `sim` has, which there moves about: storage of views.

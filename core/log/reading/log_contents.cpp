@@ -17,7 +17,6 @@ LogContents::LogContents(const std::string& file, LogLevel least) : h5(file) {
   require_log(h5);
   require_level(h5, least);
   resolved = logged_scene(h5);
-  model = resolved.model;
   check_schema(h5, model, resolved.scene);
   time = h5.doubles("/trajectory/time");
   phase = h5.integers("/trajectory/phase");

@@ -20,7 +20,7 @@ struct LogContents {
   explicit LogContents(const std::string& file, LogLevel least = LogLevel::full);
   Hdf5Reader h5;
   ResolvedScene resolved;
-  Model model;                      ///< model that the scene makes
+  const Model& model = resolved.model;
   std::vector<double> time;         ///< s
   std::vector<std::int64_t> phase;  ///< values of Phase
   /// Frames x nq, nv, nv. Below LogLevel::frames there is no q, below full neither velocity.

@@ -38,7 +38,6 @@ int animal(const AnimalOptions& options) {
   set.insert(set.end(), options.set.begin(), options.set.end());
   const ResolvedScene resolved = scene_argument(options.scene, set);
   const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
   Film film = read_film(options.film, options.reading);
   end_at(film, options.until);
   const FilmRemarks remarks = tidy(film);
@@ -54,7 +53,7 @@ int animal(const AnimalOptions& options) {
   const std::string size = scaled(film, found.scale);
   fmt::print("{}: read as {}, {} midlines{}\n{}{}", printable(options.film), film.format,
              film.frames.size(), size, ends_note(film, options.reading, size),
-             another_animal_note(film, options.reading, options.scene, model, "figures"));
+             another_animal_note(film, options.reading, options.scene, resolved.model, "figures"));
   for (const std::string& told : remarks.told) fmt::print("{}\n", told);
   for (const std::string& doubt : remarks.doubts) fmt::print("look at: {}\n", doubt);
   if (found.moved <= found.rms) {

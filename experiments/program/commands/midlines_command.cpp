@@ -124,7 +124,7 @@ std::string scene_text(const MidlinesOptions& options, const Model& model,
 /// Says which knot the film ends with, finds muscles that follow the program, and writes the scene.
 void run_by(const MidlinesOptions& options, const ResolvedScene& resolved,
             const CurvatureProgram& program, TextFile& out, Work& work) {
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const Model& model = resolved.model;
   const FilmedKnot knot = knot_of(model, program, program.time.size() - 1, resolved.scene.knot);
   fmt::print("knot at the film's end: {}{}\n", knot.name == "0_1" ? "none" : knot_words(knot.name),
              hand_text(knot));
@@ -177,7 +177,7 @@ int midlines(const MidlinesOptions& options) {
   TextFile out(options.out, options.force);
   TextFile scene_out(scene_file(options), options.force);
   const ResolvedScene resolved = scene_argument(options.scene, {});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const Model& model = resolved.model;
   if (const int most = model.body_count() / 4; options.stations > most) {
     throw InputError(fmt::format("--stations {}: an animal of {} bodies can have at most {}",
                                  options.stations, model.body_count(), most));

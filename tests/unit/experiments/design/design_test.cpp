@@ -83,7 +83,7 @@ TEST(Design, ForOtherAnimalsTheThickestOfTheseIsLedByTurns) {
   options.animals = true;
   design(options);
   const SoftBody own = soft_body("");
-  const SoftBody thickest = soft_body(other_animal(own.resolved.specimen, thickest_animal));
+  const SoftBody thickest = soft_body(other_animal(own.specimen, thickest_animal));
   const Archive archive(options.seed, options.knot);
   bool differs = false;  // turns about strands do; others are laid beforehand
   for (const std::string& line : sorted_lines(folder.path() / "tries.csv")) {

@@ -38,7 +38,7 @@ TEST(LivingBody, OfAnotherSizeHasMusclesDragAndContactOfItsOwn) {
   const Scene base = resolved_scene(found_scene(own.model, straight(own), "3_1", ""), {}).scene;
   const ResolvedScene other =
       resolved_scene(found_scene(larger.model, straight(larger), "3_1", text), {});
-  EXPECT_NEAR(other.specimen.length, 1.25 * own.resolved.specimen.length, 1e-4);
+  EXPECT_NEAR(other.specimen.length, 1.25 * own.specimen.length, 1e-4);
   const auto ratio = [](double of, double to) { return of / to; };
   constexpr double rounding = 1e-3;  // of the digits in the files
   EXPECT_NEAR(ratio(other.scene.active.stiffness, base.active.stiffness), std::pow(1.25, 4),
@@ -55,7 +55,7 @@ TEST(SoftBody, OfAnotherSizeIsLedAsTheFirstOne) {
   // Forces in water go with girth, speed and length; stiffness with that and the length squared.
   const SoftBody own = soft_body("");
   const SoftBody larger = soft_body(sized_text(1.25));
-  const Scene &one = own.resolved.scene, &other = larger.resolved.scene;
+  const Scene &one = own.scene, &other = larger.scene;
   EXPECT_NEAR(other.script.largest_force / one.script.largest_force, std::pow(1.25, 3), 1e-3);
   EXPECT_NEAR(other.script.spring / one.script.spring, std::pow(1.25, 2), 1e-3);
   EXPECT_NEAR(other.model.bending_stiffness / one.model.bending_stiffness, std::pow(1.25, 5), 1e-2);
@@ -84,7 +84,7 @@ TEST(LivingBody, RepeatsWhatItsProgramTies) {
 
 TEST(OtherAnimals, AreTheSameForTheSameNumberAndWithinBounds) {
   const SoftBody body = soft_body("");
-  const Specimen& own = body.resolved.specimen;
+  const Specimen& own = body.specimen;
   const FoundScene found = found_scene(body.model, straight(body), "4_1", "");
   std::set<std::string> animals;
   std::vector<double> thickness;
