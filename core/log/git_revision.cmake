@@ -8,7 +8,7 @@ if(failed)
 else()
   execute_process(COMMAND git -C ${SOURCE} diff --quiet HEAD -- .
     ":(exclude)experiments/results/*.csv" ":(exclude)experiments/results/*.md"
-    ":(exclude)experiments/results/*.png"
+    ":(exclude)experiments/results/*.png" ":(exclude)README.md"
     ERROR_QUIET RESULT_VARIABLE changed)
   if(changed)
     string(APPEND revision "+")
