@@ -3,6 +3,8 @@
 import re
 import sys
 
+import lines
+import pytest
 from pages import ROOT
 
 sys.path.insert(0, str(ROOT / "experiments/docs/reference"))
@@ -26,3 +28,12 @@ def test_the_paper_s_values_are_marked_and_no_others():
     rows = scene_keys.rows_of(lines[next(k for k, line in enumerate(lines) if not line):])  # behind the comment of the whole file
     marked = {f"{section}.{key}".lstrip("."): place for section, key, _, comment in rows for place in re.findall(r"\(paper, (.*?)\)", comment) if key}
     assert marked == STATED
+
+
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="needs git")
+def test_lines_of_code_are_those_that_contributing_says():
+    said = dict(re.findall(r"^\| (.+) \| (\d+\.\d) \|$", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), re.MULTILINE))
+    counted = lines.thousands()
+    assert list(said) == list(counted)
+    for part, count in counted.items():
+        assert float(said[part]) == pytest.approx(count, rel=0.02), "python3 tests/documents/lines.py prints the table"
