@@ -25,7 +25,7 @@ PACKAGE = PROGRAM.parent / "python"  # of Python, as built
 # consumer test builds (consumer.sh).
 ELSEWHERE = {(README, "bash"), (README, "mermaid"), (ROOT / "experiments/docs/reference/cpp.md", "cpp"), (ROOT / "experiments/docs/reference/cpp.md", "cmake")}
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
-NEAR = 0.2  # share by which numbers of a tutorial may be off: those of another build differ, those of another result are old
+NEAR = 0.1  # share by which numbers of a tutorial may be off: those of another build differ, those of another result are old
 
 
 def blocks(path: Path, kind: str) -> list[str]:
