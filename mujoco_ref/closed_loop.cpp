@@ -1,7 +1,7 @@
 #include "mujoco_ref/closed_loop.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include "core/chain/dynamics.hpp"
@@ -11,8 +11,6 @@
 
 namespace hagfish {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 MujocoModel made(const Model& model, const Scene& scene, const MujocoSettings& settings,
                  Head head) {
@@ -76,15 +74,15 @@ void MujocoLoop::book(double work, const ObservedState& next, Simulation& sim) c
       open_ledger(model_, next, keeps_momentum(scene_, clamps_head(scene_, sim.controller.phase)));
   sim.ledger.initial = before.initial;
   sim.ledger.work_active = before.work_active + work;
-  sim.ledger.work.of_kind.fill(nan);
-  sim.ledger.dissipated = sim.ledger.integrator_inertia = nan;
+  sim.ledger.work.of_kind.fill(NAN);
+  sim.ledger.dissipated = sim.ledger.integrator_inertia = NAN;
   const Momentum initial = sim.momentum.initial;
   sim.momentum = open_momentum(model_, next);
   sim.momentum.initial = initial;
   for (Momentum* impulse : {&sim.momentum.drag, &sim.momentum.outside, &sim.momentum.integrator,
                             &sim.momentum.given_back}) {
-    impulse->linear.setConstant(nan);
-    impulse->angular.setConstant(nan);
+    impulse->linear.setConstant(NAN);
+    impulse->angular.setConstant(NAN);
   }
 }
 
@@ -99,7 +97,7 @@ MujocoModel& MujocoLoop::mirror(Head head) {
 bool MujocoLoop::damps_implicitly() const { return settings_.integrator != MujocoIntegrator::rk4; }
 
 void MujocoLoop::apply(const Simulation& sim, const Control& control, MujocoModel& mirror,
-                       MuscleTorque& muscles) const {
+                       ActiveTorque& muscles) const {
   const Eigen::VectorXd& qdot = sim.now.state.qdot;
   muscles.value.setZero(model_.nv());
   muscles.rate.setZero(model_.nv());
@@ -128,7 +126,7 @@ void MujocoLoop::note_forces(const Simulation& sim, MujocoModel& mirror, StepSol
   const double h = scene_.time.step;
   const Eigen::Index root = model_.nv() - m.nv;  // velocities that a clamped head has not
   for (const RowKind kind : row_kinds) step.force[kind].setZero(model_.nv());
-  if (root > 0) step.force[RowKind::head].head<root_dofs>().setConstant(nan);
+  if (root > 0) step.force[RowKind::head].head<root_dofs>().setConstant(NAN);
   step.rows.clear();
   std::vector<double> lambda;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(m.nv);  // as it stays where there are no rows
@@ -160,12 +158,12 @@ void MujocoLoop::note_forces(const Simulation& sim, MujocoModel& mirror, StepSol
     lambda.push_back(h * d.efc_force[contact.efc_address]);
   }
   step.lambda = Eigen::VectorXd::Map(lambda.data(), static_cast<Eigen::Index>(lambda.size()));
-  step.excess.setConstant(step.lambda.size(), nan);
+  step.excess.setConstant(step.lambda.size(), NAN);
   step.active = static_cast<int>((step.lambda.array() != 0).count());
   step.iterations = d.solver_iter;
-  step.net_force.setConstant(model_.nv(), nan);
+  step.net_force.setConstant(model_.nv(), NAN);
   step.tip.setZero();
-  step.stationarity = step.kkt.primal = step.kkt.complementarity = step.qp_time = nan;
+  step.stationarity = step.kkt.primal = step.kkt.complementarity = step.qp_time = NAN;
 }
 
 void MujocoLoop::take_step(Simulation& sim, StepRecord& record) {

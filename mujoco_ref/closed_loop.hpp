@@ -28,36 +28,31 @@ struct MujocoSettings {
 /// Takes the steps of a run in MuJoCo, at the scene's time step: Newton's solver with a dense
 /// Jacobian, which is its quickest here, and the capsules of mjcf.hpp. Muscles and water drag are
 /// applied as generalised forces (qfrc_applied), explicitly, from the state at the start of the
-/// step; the torque of a hinge ends at the scene's capacity. A clamped head is part of the world.
+/// step. A law that asks for rows of Eq. 6 ends the run. A clamped head is part of the world.
 class MujocoLoop {
  public:
   /// `model` and `scene` are referred to. Throws InputError, one line, where the scene asks for
-  /// what MuJoCo has not: a head plate, a script's force on the tail, rows of Eq. 6.
+  /// what MuJoCo has not: obstacles, flesh, a script's force on the tail, the midpoint rule.
   MujocoLoop(const Model& model, const Scene& scene, const MujocoSettings& settings = {});
 
   /// Takes a step as hagfish::take_step() does. The solution in `record` has the velocities,
   /// contacts and limits with their forces, and the active torque. What MuJoCo does not tell is
-  /// nan: the clamp's force, works and residuals. Throws StepError.
+  /// nan: the clamp's force, works and residuals. Throws StepError, after which `sim` cannot go on.
   void take_step(Simulation& sim, StepRecord& record);
 
  private:
-  /// value - rate q̇, dyn cm, nv.
-  struct MuscleTorque {
-    Eigen::VectorXd value, rate;
-  };
-
   MujocoModel& mirror(Head head);
   void book(double work, const ObservedState& next, Simulation& sim) const;
   bool damps_implicitly() const;
   void apply(const Simulation& sim, const Control& control, MujocoModel& mirror,
-             MuscleTorque& muscles) const;
+             ActiveTorque& muscles) const;
   void note_forces(const Simulation& sim, MujocoModel& mirror, StepSolution& step) const;
 
   const Model& model_;
   const Scene& scene_;
   MujocoSettings settings_;
   std::optional<MujocoModel> clamped_, free_;
-  MuscleTorque muscles_;  ///< torque of the last step
+  ActiveTorque muscles_;  ///< sum of all torques of the last step
 };
 
 }  // namespace hagfish

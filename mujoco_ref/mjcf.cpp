@@ -123,11 +123,9 @@ std::string bodies_file(const Model& model, const std::vector<JointName>& names,
 void write_excludes(std::ostream& out, const Model& model, double least_arc) {
   std::vector<double> arc{0};  // of the bodies' front ends and the tail, cm
   for (const Body& body : model.bodies) arc.push_back(arc.back() + body.length);
+  const ContactSettings contact{.least_arc = least_arc};
   for (int a = 0; a < model.body_count(); ++a) {
-    // The hair of slack is that of core/contact/contact.cpp: equal arcs fall on the same side in
-    // both.
-    for (int b = a + 1; b < model.body_count() && arc[b] - arc[a + 1] < least_arc * (1 - 1e-9);
-         ++b) {
+    for (int b = a + 1; b < model.body_count() && !contact.may_touch(arc[b] - arc[a + 1]); ++b) {
       out << "<exclude body1=\"" << body_name(a) << "\" body2=\"" << body_name(b) << "\"/>\n";
     }
   }
@@ -158,7 +156,7 @@ void write_obstacles(std::ostream& out, const Model& model) {
 
 std::string root_file(const Model& model, double least_arc, double h) {
   const int contacts = contacts_per_body * model.body_count();
-  const int rows = contacts + static_cast<int>(model.hinges.size());  // each contact is one row
+  const int rows = contacts + model.hinge_count();  // each contact is one row
   std::ostringstream out = number_stream();
   out << "<!-- Units: cm, g, s, rad. -->\n"
          "<!-- The animal and its obstacles, without water drag, the head plate, and what a scene "

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <cmath>
 #include <string>
 
 #include "core/chain/kinematics.hpp"
@@ -16,7 +16,7 @@ Model smooth(Model model) {
   model.cones.clear();
   for (Body& body : model.bodies) body.radius = 0;
   for (Hinge& hinge : model.hinges) {
-    hinge.upper = std::numeric_limits<double>::infinity();
+    hinge.upper = INFINITY;
     hinge.lower = -hinge.upper;
   }
   return model;

@@ -11,22 +11,19 @@
 #endif
 
 namespace hagfish {
+namespace {
 
-const char* status_name(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::solved:
-      return "solved";
-    case SolveStatus::infeasible:
-      return "infeasible";
-    case SolveStatus::stopped:
-      return "stopped";
-    case SolveStatus::iteration_limit:
-      return "iteration limit";
-    case SolveStatus::failed:
-      break;
-  }
-  return "failed";
+/// Of the largest entry of row_scale(A): rows below it cannot move.
+constexpr double immovable_share = 1e-20;
+/// Of the same: the scale of rows that cannot move.
+constexpr double least_share = 1e-10;
+
+/// `w` brought nearer to 0 by `rounding`, but not past it.
+double beyond(double w, double rounding) {
+  return rounding == 0 ? w : std::copysign(std::max(std::abs(w) - rounding, 0.0), w);
 }
+
+}  // namespace
 
 void check_box_qp(const BoxQp& qp) {
   const Eigen::Index m = qp.b.size();
@@ -42,15 +39,6 @@ void check_box_qp(const BoxQp& qp) {
     throw std::invalid_argument("box QP: the bounds must include 0");
   }
 }
-
-namespace {
-
-/// Of the largest entry of row_scale(A): rows below it cannot move.
-constexpr double immovable_share = 1e-20;
-/// Of the same: the scale of rows that cannot move.
-constexpr double least_share = 1e-10;
-
-}  // namespace
 
 Eigen::VectorXd row_scale(const Eigen::MatrixXd& A) {
   Eigen::VectorXd s(A.rows());
@@ -77,15 +65,6 @@ double rhs_scale(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& s) {
   }
   return beta > 0 ? beta : 1;
 }
-
-namespace {
-
-/// `w` brought nearer to 0 by `rounding`, but not past it.
-double beyond(double w, double rounding) {
-  return rounding == 0 ? w : std::copysign(std::max(std::abs(w) - rounding, 0.0), w);
-}
-
-}  // namespace
 
 KktResiduals kkt_residuals(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& x) {
   return kkt_residuals(qp, x, qp.A * x - qp.b, row_scale(qp.A));

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -53,7 +54,12 @@ void row_scale(const Eigen::MatrixXd& A, Eigen::Ref<Eigen::VectorXd> s);
 double rhs_scale(const BoxQp& qp, const Eigen::Ref<const Eigen::VectorXd>& s);
 
 enum class SolveStatus { solved, infeasible, iteration_limit, stopped, failed };
-const char* status_name(SolveStatus status);
+/// Names in the order of the enumeration.
+inline constexpr std::array status_names = {"solved", "infeasible", "iteration limit", "stopped",
+                                            "failed"};
+inline const char* status_name(SolveStatus status) {
+  return status_names[static_cast<std::size_t>(status)];
+}
 
 struct BoxQpSolution {
   Eigen::VectorXd x;  ///< m; within the bounds and finite also where the solve failed

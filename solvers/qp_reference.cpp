@@ -46,10 +46,8 @@ QpReference::QpReference(const BoxQp& qp) {
 
 QpReference::QpReference(const PrimalQp& qp) {
   const BoxQp dual = dual_of(qp);
-  Matrix rows(dual.b.size(), qp.g.size());
+  const Matrix rows = all_rows(qp).cast<Real>();
   Vector rhs(dual.b.size());
-  if (qp.e.size() > 0) rows.topRows(qp.e.size()) = qp.G.cast<Real>();
-  if (qp.d.size() > 0) rows.bottomRows(qp.d.size()) = qp.C.cast<Real>();
   rhs << qp.e.cast<Real>(), qp.d.cast<Real>();
   const Eigen::LLT<Matrix> factor(qp.H.cast<Real>());
   free_velocity_ = factor.solve(qp.g.cast<Real>());

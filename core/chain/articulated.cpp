@@ -60,7 +60,7 @@ void ArticulatedFactor::factorise(const Model& model, const Kinematics& kin, con
   using Column = Eigen::Matrix<double, 8, 1>;
   Eigen::Matrix<double, 8, 6> articulated = Eigen::Matrix<double, 8, 6>::Zero();
   Column u = Column::Zero();
-  double inverse = 0;   // of the pivot behind
+  double inverse = 0;   // inverse of the pivot behind
   double coupling = 0;  // with the dof behind
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
@@ -111,11 +111,13 @@ void ArticulatedFactor::solve(const Model& model, const Kinematics& kin, const M
   const auto count = static_cast<Eigen::Index>(prescribed.size());
   reaction.resize(count);
   Eigen::Index next = count;
-  // Both sums lack the part of the dof before, which `coupling_` adds to their product: so each dof
-  // waits for the last one's velocity alone, and not for the sum with it.
+  // From the tail on, `sum` is the wrench on the bodies behind a dof, less what the dofs there take
+  // up. From the head on, `moved` is the twist of the body before it. Both are kept one dof behind.
+  // `coupling_`, the product of a dof's axis with the missing part, makes up for that. So each dof
+  // waits for one velocity, and not for a vector with it.
   Vector6d sum = Vector6d::Zero();
   int last = 0;
-  double velocity = 0;  // of the dof `last`
+  double velocity = 0;  // velocity of the dof `last`
   for (int b = model.body_count() - 1; b >= 0; --b) {
     const Body& body = model.bodies[b];
     sum += wrench.col(b);
@@ -163,8 +165,8 @@ Eigen::VectorXd ArticulatedFactor::solve(const Model& model, const Kinematics& k
 void ArticulatedFactor::half_solve(const Model& model, const Kinematics& kin,
                                    RowColumns& columns) const {
   using Panel = Eigen::Array<double, 1, RowColumns::panel>;
-  auto& sum = columns.sum_;
-  auto& y = columns.y_;
+  auto& sum = columns.sum_;  // for each row, the wrench on the bodies behind, less what is taken up
+  auto& y = columns.y_;      // what a dof takes up: S'sum, and its own force, over √pivot
   columns.set_widths();
   for (int b = model.body_count() - 1; b >= 0; --b) {
     for (int i = columns.newest_[b]; i >= 0; i = columns.loads_[i].next) {

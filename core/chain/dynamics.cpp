@@ -235,21 +235,17 @@ double kinetic_energy(const Model& model, const Kinematics& kin, int body, const
                 rate.cwiseAbs2().dot(model.bodies[body].inertia));
 }
 
-double kinetic_energy(const Model& model, const Kinematics& kin) {
+double kinetic_energy(const Model& model, const Kinematics& kin, const Eigen::Vector3d& observer) {
   double energy = 0;
   for (int b = 0; b < model.body_count(); ++b) {
-    energy += kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b));
+    energy +=
+        kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b) - observer);
   }
   return energy;
 }
 
 double inner_kinetic_energy(const Model& model, const Kinematics& kin) {
-  const Eigen::Vector3d mean = mean_by_mass(model, kin.centre_velocity);
-  double energy = 0;
-  for (int b = 0; b < model.body_count(); ++b) {
-    energy += kinetic_energy(model, kin, b, kin.twist.col(b), kin.centre_velocity.col(b) - mean);
-  }
-  return energy;
+  return kinetic_energy(model, kin, mean_by_mass(model, kin.centre_velocity));
 }
 
 // Velocities are carried along in the axes of the bodies, so that none has to be placed in the

@@ -93,8 +93,10 @@ void add_active_torque(const ActiveTorque& torque, double h, StepSystem& system)
 double kinetic_energy(const Model& model, const Kinematics& kin, int body, const Vector6d& twist,
                       const Eigen::Vector3d& velocity);
 
-/// Kinetic energy of all bodies at kin.twist, erg.
-double kinetic_energy(const Model& model, const Kinematics& kin);
+/// Kinetic energy of all bodies at kin.twist, erg, for an observer who moves with this velocity
+/// (cm/s, world).
+double kinetic_energy(const Model& model, const Kinematics& kin,
+                      const Eigen::Vector3d& observer = Eigen::Vector3d::Zero());
 /// Kinetic energy about the centre of mass, erg: the same for each observer.
 double inner_kinetic_energy(const Model& model, const Kinematics& kin);
 
@@ -124,6 +126,9 @@ inline AxisOperator inertia_about_centre(const Body& body) {
 struct PointMotion {
   Eigen::Vector3d spin, velocity;
 };
+inline PointMotion body_motion(const BodyVelocities& bodies, int body) {
+  return {bodies.twist.col(body).head<3>(), bodies.centre.col(body)};
+}
 
 /// A moment about a body's centre, dyn cm, and a force on it, dyn; world. Vectors of three stay in
 /// registers, where those of six would go through memory.

@@ -57,7 +57,7 @@ void update_axes(const Model& model, const Eigen::VectorXd& q, Kinematics& kin) 
   }
 }
 
-/// Where bodies and hinges are, by their axes and where the root is.
+/// Places of bodies and hinges, by their axes and the place of the root.
 void update_places(const Model& model, const Eigen::Vector3d& root, Kinematics& kin) {
   const int n = model.body_count();
   kin.origin.resize(3, n);
@@ -92,17 +92,15 @@ void update_positions(const Model& model, const Eigen::VectorXd& q, Kinematics& 
 void place_centre(const Model& model, const Eigen::Vector3d& centre, Eigen::VectorXd& q,
                   Kinematics& kin) {
   update_axes(model, q, kin);
-  Eigen::Vector3d end = Eigen::Vector3d::Zero();  // of the body, from the root
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();  // end of the body, from the root
   Eigen::Vector3d moment = end;
-  double mass = 0;
   for (int b = 0; b < model.body_count(); ++b) {
     const Body& body = model.bodies[b];
     const Eigen::Vector3d half = 0.5 * body.length * kin.rotation[b].col(0);
     moment += body.mass * (end + half);
     end += 2 * half;
-    mass += body.mass;
   }
-  q.head<3>() = centre - moment / mass;
+  q.head<3>() = centre - moment / model.mass();
   update_places(model, q.head<3>(), kin);
 }
 
@@ -112,12 +110,8 @@ Eigen::Vector3d centre_of_mass(const Model& model, const Kinematics& kin) {
 
 Eigen::Vector3d mean_by_mass(const Model& model, const Eigen::Matrix3Xd& of) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  double mass = 0;
-  for (int b = 0; b < model.body_count(); ++b) {
-    moment += model.bodies[b].mass * of.col(b);
-    mass += model.bodies[b].mass;
-  }
-  return moment / mass;
+  for (int b = 0; b < model.body_count(); ++b) moment += model.bodies[b].mass * of.col(b);
+  return moment / model.mass();
 }
 
 void update_velocities(const Model& model, const Eigen::VectorXd& qdot, Kinematics& kin) {

@@ -4,49 +4,94 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
+
+#include "core/chain/bending.hpp"
 
 namespace hagfish {
 namespace {
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-void set_hinge(Hinge& hinge, double limit, double stiffness, double damping) {
-  hinge.lower = -limit;
-  hinge.upper = limit;
-  hinge.stiffness = stiffness;
-  hinge.damping = damping;
-}
 
 /// Passive stiffness and damping about one kind of axis, per length: dyn cm^2, dyn cm^2 s.
 struct Passive {
   double stiffness = 0, damping = 0;
 };
 
-Passive bending_at(const Specimen& specimen, const ModelSettings& settings, double fraction) {
-  if (settings.passive == PassiveSource::scene) {
-    return {settings.bending_stiffness, settings.bending_damping};
-  }
-  return {profile(specimen.station, specimen.bending_stiffness, fraction),
-          profile(specimen.station, specimen.bending_damping, fraction)};
+/// `uniform` all along the body, or the specimen's profiles of both at `fraction` of its length.
+Passive passive_at(const Specimen& specimen, PassiveSource source, const Passive& uniform,
+                   const std::vector<double>& stiffness, const std::vector<double>& damping,
+                   double fraction) {
+  if (source == PassiveSource::scene) return uniform;
+  return {profile(specimen.station, stiffness, fraction),
+          profile(specimen.station, damping, fraction)};
 }
 
-Passive twist_at(const Specimen& specimen, const ModelSettings& settings, double fraction) {
-  if (settings.passive == PassiveSource::scene) {
-    return {settings.twist_stiffness, settings.twist_damping};
+/// The nearest joint before (way -1) or after (way 1) joint `body` that has as many hinges; -1 if
+/// there is none. Body 0 has no joint.
+int joint_beside(const Model& model, int body, int way) {
+  for (int b = body + way; b > 0 && b < model.body_count(); b += way) {
+    if (model.bodies[b].dofs == model.bodies[body].dofs) return b;
   }
-  return {profile(specimen.station, specimen.twist_stiffness, fraction),
-          profile(specimen.station, specimen.twist_damping, fraction)};
+  return -1;
+}
+
+/// Largest angle of joint `b` to either side, of its twist or of each bend, rad.
+double joint_limit(const Specimen& specimen, const ModelSettings& settings, const Model& model,
+                   int b) {
+  const int n = model.body_count();
+  if (!bends(model.bodies[b])) return settings.limit_scale * specimen.twist_limit / n;
+  const double measured =
+      profile(specimen.station, specimen.bending_limit, static_cast<double>(b) / n);
+  const int apart = settings.joints == JointLayout::universal ? 1 : 2;  // bodies
+  return std::min(
+      settings.limit_scale * measured * apart * model.bodies[b].length / specimen.bending_span,
+      settings.largest_limit);
+}
+
+/// Sets limits, stiffness and damping of the hinges of joint `b`.
+void set_joint(const Specimen& specimen, const ModelSettings& settings, int b, Model& model) {
+  const Body& body = model.bodies[b];
+  const double fraction = static_cast<double>(b) / model.body_count();
+  const double span = hinge_span(model, b);
+  const Passive passive =
+      bends(body) ? passive_at(specimen, settings.passive,
+                               {settings.bending_stiffness, settings.bending_damping},
+                               specimen.bending_stiffness, specimen.bending_damping, fraction)
+                  : passive_at(specimen, settings.passive,
+                               {settings.twist_stiffness, settings.twist_damping},
+                               specimen.twist_stiffness, specimen.twist_damping, fraction);
+  const double limit = joint_limit(specimen, settings, model, b);
+  const bool cone = bends(body) && settings.bending_limit == BendingLimit::cone;
+  if (cone) model.cones.push_back({body.first_dof, limit});
+  for (int k = body.first_dof; k < body.first_dof + body.dofs; ++k) {
+    Hinge& hinge = model.hinges[k - root_dofs];
+    hinge.upper = cone ? INFINITY : limit;
+    hinge.lower = -hinge.upper;
+    hinge.stiffness = passive.stiffness / span;
+    hinge.damping = passive.damping / span;
+  }
+}
+
+/// Axes of the universal joint before body b. Turns do not commute: one about Y before Z twists the
+/// body by half the product of its angles, Z before Y by as much the other way. In turn these
+/// twists cancel, so that one curvature makes one curve to second order in the bodies' length.
+std::vector<Axis> bending_axes(JointLayout joints, int b) {
+  const int before = joints == JointLayout::universal ? b - 1 : (b - 1) / 2;  // universal joints
+  return before % 2 == 0 ? std::vector{Axis::z, Axis::y} : std::vector{Axis::y, Axis::z};
 }
 
 }  // namespace
 
 double Model::length() const {
-  return std::accumulate(bodies.begin(), bodies.end(), 0.0,
-                         [](double sum, const Body& b) { return sum + b.length; });
+  double sum = 0;
+  for (const Body& body : bodies) sum += body.length;
+  return sum;
+}
+
+double Model::mass() const {
+  double sum = 0;
+  for (const Body& body : bodies) sum += body.mass;
+  return sum;
 }
 
 std::vector<JointName> joint_names(const Model& model) {
@@ -71,6 +116,15 @@ std::vector<JointName> joint_names(const Model& model) {
   return names;
 }
 
+std::vector<std::string> coordinate_names(const Model& model) {
+  std::vector<std::string> names{"root_x",  "root_y",  "root_z", "root_qw",
+                                 "root_qx", "root_qy", "root_qz"};
+  for (const JointName& joint : joint_names(model)) {
+    if (joint.joint != "root") names.insert(names.end(), joint.dofs.begin(), joint.dofs.end());
+  }
+  return names;
+}
+
 std::string dof_name(const Model& model, int dof) {
   int first = 0;
   for (const JointName& joint : joint_names(model)) {
@@ -86,7 +140,7 @@ std::string cone_joint_name(const Model& model, const BendingCone& cone) {
 }
 
 Eigen::Matrix2Xd hinge_ranges(const Model& model) {
-  Eigen::Matrix2Xd ranges(2, static_cast<Eigen::Index>(model.hinges.size()));
+  Eigen::Matrix2Xd ranges(2, model.hinge_count());
   for (Eigen::Index k = 0; k < ranges.cols(); ++k) {
     ranges.col(k) << model.hinges[k].lower, model.hinges[k].upper;
   }
@@ -98,7 +152,7 @@ Eigen::Matrix2Xd hinge_ranges(const Model& model) {
 }
 
 Eigen::VectorXd bending_limits(const Model& model) {
-  Eigen::VectorXd limits = Eigen::VectorXd::Constant(model.body_count(), unbounded);
+  Eigen::VectorXd limits = Eigen::VectorXd::Constant(model.body_count(), INFINITY);
   for (const BendingCone& cone : model.cones) {
     limits[model.hinges[cone.dof - root_dofs].body] = cone.limit;
   }
@@ -113,26 +167,13 @@ void append_body(Model& model, const Body& body, const std::vector<Axis>& axes) 
   model.bodies.push_back(body);
   model.bodies.back().first_dof = index == 0 ? 0 : model.nv();
   model.bodies.back().dofs = index == 0 ? root_dofs : static_cast<int>(axes.size());
-  for (Axis axis : axes) model.hinges.push_back({index, axis, -unbounded, unbounded, 0, 0});
+  for (Axis axis : axes) model.hinges.push_back({index, axis, -INFINITY, INFINITY, 0, 0});
 }
 
 Eigen::Vector3d cylinder_inertia(double mass, double length, double radius) {
   const double across = mass * (3 * radius * radius + length * length) / 12;
   return {mass * radius * radius / 2, across, across};
 }
-
-namespace {
-
-/// The nearest joint before (way -1) or after (1) joint `body` with as many hinges, body 0 none;
-/// -1.
-int joint_beside(const Model& model, int body, int way) {
-  for (int b = body + way; b > 0 && b < model.body_count(); b += way) {
-    if (model.bodies[b].dofs == model.bodies[body].dofs) return b;
-  }
-  return -1;
-}
-
-}  // namespace
 
 double hinge_span(const Model& model, int body) {
   const int before = joint_beside(model, body, -1), after = joint_beside(model, body, 1);
@@ -147,44 +188,6 @@ std::vector<Obstacle> obstacles_of(const Scene& scene) {
   all.insert(all.end(), scene.obstacles.begin(), scene.obstacles.end());
   return all;
 }
-
-namespace {
-
-/// Limits, stiffness and damping of the hinges of joint `b`.
-void set_joint(const Specimen& specimen, const ModelSettings& settings, int b, Model& model) {
-  const int n = model.body_count();
-  const Body& body = model.bodies[b];
-  const double fraction = static_cast<double>(b) / n;
-  const double span = hinge_span(model, b);
-  Hinge* hinge = &model.hinges[body.first_dof - root_dofs];
-  if (body.dofs == 1) {
-    const Passive passive = twist_at(specimen, settings, fraction);
-    set_hinge(*hinge, settings.limit_scale * specimen.twist_limit / n, passive.stiffness / span,
-              passive.damping / span);
-    return;
-  }
-  const double measured = profile(specimen.station, specimen.bending_limit, fraction);
-  const Passive passive = bending_at(specimen, settings, fraction);
-  const int apart = settings.joints == JointLayout::universal ? 1 : 2;  // bodies
-  const double limit =
-      std::min(settings.limit_scale * measured * apart * body.length / specimen.bending_span,
-               settings.largest_limit);
-  const bool cone = settings.bending_limit == BendingLimit::cone;
-  if (cone) model.cones.push_back({body.first_dof, limit});
-  for (int k = 0; k < 2; ++k) {
-    set_hinge(hinge[k], cone ? unbounded : limit, passive.stiffness / span, passive.damping / span);
-  }
-}
-
-/// Axes of the universal joint before body b. Turns do not commute: one about Y before Z twists the
-/// body by half the product of its angles, Z before Y by as much the other way. In turn these
-/// twists cancel, so that one curvature makes one curve to second order in the bodies' length.
-std::vector<Axis> bending_axes(JointLayout joints, int b) {
-  const int before = joints == JointLayout::universal ? b - 1 : (b - 1) / 2;  // universal joints
-  return before % 2 == 0 ? std::vector{Axis::z, Axis::y} : std::vector{Axis::y, Axis::z};
-}
-
-}  // namespace
 
 Model make_hagfish(const Specimen& specimen, const Scene& scene) {
   const ModelSettings& settings = scene.model;

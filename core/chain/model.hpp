@@ -26,6 +26,9 @@ struct Body {
 
 enum class Axis { x = 0, y = 1, z = 2 };
 
+/// Row of an axis in shapes of the body, which are about Y, about Z, twist (CurvatureProgram).
+constexpr int shape_row(Axis axis) { return (static_cast<int>(axis) + 2) % 3; }
+
 /// One angle. A joint with several turns about its axes in the order of its hinges.
 struct Hinge {
   int body = 0;
@@ -53,9 +56,12 @@ struct Model {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< cm / s^2
 
   int body_count() const { return static_cast<int>(bodies.size()); }
-  int nv() const { return 6 + static_cast<int>(hinges.size()); }
-  int nq() const { return 7 + static_cast<int>(hinges.size()); }
+  int muscle_count() const { return static_cast<int>(muscles.size()); }
+  int hinge_count() const { return static_cast<int>(hinges.size()); }
+  int nv() const { return 6 + hinge_count(); }
+  int nq() const { return 7 + hinge_count(); }
   double length() const;  ///< cm
+  double mass() const;    ///< g
 };
 
 /// Velocities of the free root, always the first of every velocity vector.
@@ -69,6 +75,10 @@ struct JointName {
 
 /// Names of joints 0..N-1 and their velocities, as the log and the MJCF give them.
 std::vector<JointName> joint_names(const Model& model);
+
+/// Names of the coordinates of q, nq: root_x, root_y, root_z, root_qw, root_qx, root_qy, root_qz,
+/// then those of the hinges' velocities: hinge i is q[7 + i] and q̇[6 + i].
+std::vector<std::string> coordinate_names(const Model& model);
 
 /// The name of one velocity. Throws std::out_of_range.
 std::string dof_name(const Model& model, int dof);

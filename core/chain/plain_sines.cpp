@@ -6,7 +6,7 @@
 namespace hagfish {
 namespace {
 
-constexpr double largest_angle = 1e6;  // of which a quarter turn's parts leave all digits
+constexpr double largest_angle = 1e6;  // beyond it the parts of a quarter turn lose digits
 constexpr double quarters_per_rad = 6.36619772367581382433e-01;
 // A quarter turn in two parts: products of the first one with numbers of turns are exact.
 constexpr double quarter = 1.57079632673412561417e+00;
@@ -14,7 +14,7 @@ constexpr double quarter_rest = 6.07710050650619224932e-11;
 /// Added and taken away, it leaves a whole number.
 constexpr double rounding = 0x1.8p52;
 
-/// Of `y` + `rest`, within an eighth of a turn. Coefficients of fdlibm's k_sin.c.
+/// Sine of `y` + `rest`, within an eighth of a turn. Coefficients of fdlibm's k_sin.c.
 double sine_of(double y, double rest) {
   const double z = y * y;
   const double v = z * y;

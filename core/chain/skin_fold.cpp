@@ -27,7 +27,7 @@ struct Heading {
     }
   }
   Eigen::Vector3d operator()(double at) const {
-    const TablePlace place = place_among(arc, at);
+    const Bracket place = bracket_of(arc, at);
     Eigen::Vector3d found;
     for (int i = 0; i < 3; ++i)
       found[i] = value_at(place, [&](std::size_t k) { return axis[k][i]; });

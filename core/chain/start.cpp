@@ -11,7 +11,7 @@ namespace {
 
 /// What each hinge takes of a bend (rows as in StartSettings), rad or rad/s.
 Eigen::VectorXd hinge_shares(const Model& model, const std::vector<Eigen::Vector4d>& bend) {
-  const auto count = static_cast<Eigen::Index>(model.hinges.size());
+  const int count = model.hinge_count();
   Eigen::VectorXd share = Eigen::VectorXd::Zero(count);
   if (bend.empty()) return share;
   std::vector<double> station;
@@ -21,7 +21,7 @@ Eigen::VectorXd hinge_shares(const Model& model, const std::vector<Eigen::Vector
     for (int axis = 0; axis < 3; ++axis) about[axis].push_back(row[1 + axis]);
   }
   const int n = model.body_count();
-  for (Eigen::Index k = 0; k < count; ++k) {
+  for (int k = 0; k < count; ++k) {
     const Hinge& hinge = model.hinges[k];
     share[k] = hinge_span(model, hinge.body) * profile(station, about[static_cast<int>(hinge.axis)],
                                                        static_cast<double>(hinge.body) / n);
@@ -30,8 +30,8 @@ Eigen::VectorXd hinge_shares(const Model& model, const std::vector<Eigen::Vector
 }
 
 void stop_at_limits(const Model& model, State& state) {
-  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
-    double& angle = state.q[static_cast<Eigen::Index>(k) + root_dofs + 1];
+  for (int k = 0; k < model.hinge_count(); ++k) {
+    double& angle = state.q[root_dofs + 1 + k];
     angle = std::clamp(angle, model.hinges[k].lower, model.hinges[k].upper);
   }
   for (const BendingCone& cone : model.cones) {
@@ -44,7 +44,7 @@ void stop_at_limits(const Model& model, State& state) {
 
 State start_state(const Model& model, const StartSettings& settings) {
   State state = rest_state(model);
-  const auto count = static_cast<Eigen::Index>(model.hinges.size());
+  const int count = model.hinge_count();
   if (!settings.q.empty()) {
     state.q = Eigen::VectorXd::Map(settings.q.data(), model.nq());
     state.q.segment<4>(3).normalize();
@@ -61,7 +61,7 @@ State start_state(const Model& model, const StartSettings& settings) {
   if (settings.noise > 0) {
     std::mt19937 random(settings.seed);
     std::normal_distribution<double> normal(0, settings.noise);
-    for (Eigen::Index k = 0; k < count; ++k) state.q[root_dofs + 1 + k] += normal(random);
+    for (int k = 0; k < count; ++k) state.q[root_dofs + 1 + k] += normal(random);
     stop_at_limits(model, state);
   }
   return state;

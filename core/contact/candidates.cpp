@@ -57,12 +57,10 @@ void list_pairs(const std::vector<SplineSegment>& segments, const ContactSetting
   candidates.clear_until.clear();
   candidates.displacement.assign(segments.size(), 0);
   const double carried = carried_beyond(segments);
-  // Slack, so that rounding does not put equal arcs on different sides of the bound.
-  const double least_arc = settings.least_arc * (1 - 1e-9);
   const int n = static_cast<int>(segments.size());
   for (int a = 0; a < n && segments[a].obstacle < 0; ++a) {  // obstacles follow the body
     for (int b = a + 1; b < n; ++b) {
-      if (segments[b].s0 - segments[a].arc(1) < least_arc) continue;
+      if (!settings.may_touch(segments[b].s0 - segments[a].arc(1))) continue;
       const double reach = segments[a].bound + segments[b].bound + settings.margin;
       const double square = (segments[a].middle - segments[b].middle).squaredNorm();
       if (square <= (reach + carried) * (reach + carried)) {

@@ -35,13 +35,16 @@ struct SampledSegments {
   std::array<SampleLanes, most_samples> radius;
 };
 
-/// `of(k)` is the segment of lane k and the origin from which it is seen.
-template <class Of>
-void sample_segments(int count, int samples, Of of, SampledSegments& sampled) {
+/// Samples one segment of each query, seen from the first end of its segment a: nearby numbers keep
+/// their digits in single precision.
+void sample_segments(std::span<const ClosestPointsQuery> queries,
+                     const SplineSegment* ClosestPointsQuery::*segment, int samples,
+                     SampledSegments& sampled) {
   std::array<std::array<FloatLaneValues, 3>, 4> c{};
   FloatLaneValues r0{}, r1{};
-  for (int k = 0; k < count; ++k) {
-    const auto& [s, origin] = of(k);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    const SplineSegment& s = *(queries[k].*segment);
+    const Eigen::Vector3d& origin = queries[k].a->c0;
     for (int i = 0; i < 3; ++i) {
       c[0][i][k] = static_cast<float>(s.c0[i] - origin[i]);
       c[1][i][k] = static_cast<float>(s.c1[i]);
@@ -291,38 +294,24 @@ void ClosestPointsSearch::answer(int samples, std::span<ClosestPointsQuery> quer
     sample(samples, queries, first);
   }
   for (ClosestPointsQuery& query : queries) {
-    query.closest = {0, 0, std::numeric_limits<double>::infinity()};
+    query.closest = {0, 0, INFINITY};
   }
   for (std::size_t first = 0; first < descents_.size(); first += lane_count) {
     descend(queries, first);
   }
 }
 
-/// Lists the starts of a batch of queries.
+/// Lists the starts of the batch of queries that begins with query `first`.
 void ClosestPointsSearch::sample(int samples, std::span<const ClosestPointsQuery> queries,
                                  std::size_t first) {
-  const int count = static_cast<int>(std::min<std::size_t>(sample_lanes, queries.size() - first));
-  struct Seen {
-    const SplineSegment& segment;
-    const Eigen::Vector3d& from;
-  };
+  const auto batch =
+      queries.subspan(first, std::min<std::size_t>(sample_lanes, queries.size() - first));
   SampledSegments a, b;
-  const auto query = [&](int k) -> const ClosestPointsQuery& { return queries[first + k]; };
-  sample_segments(
-      count, samples,
-      [&](int k) {
-        return Seen{*query(k).a, query(k).a->c0};
-      },
-      a);
-  sample_segments(
-      count, samples,
-      [&](int k) {
-        return Seen{*query(k).b, query(k).a->c0};
-      },
-      b);
+  sample_segments(batch, &ClosestPointsQuery::a, samples, a);
+  sample_segments(batch, &ClosestPointsQuery::b, samples, b);
   const auto found = basins(a, b, samples);
   const double spacing = 1.0 / (samples - 1);
-  for (int k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < batch.size(); ++k) {
     const bool single = std::has_single_bit(found[k]);
     for (std::uint64_t bits = found[k]; bits != 0; bits &= bits - 1) {
       const int bit = std::countr_zero(bits);
@@ -331,7 +320,7 @@ void ClosestPointsSearch::sample(int samples, std::span<const ClosestPointsQuery
       const double t_a = spacing * i;
       const double t_b = spacing * j;
       const ClosestPoints guess =
-          single && query(k).guess ? *query(k).guess : ClosestPoints{t_a, t_b};
+          single && batch[k].guess ? *batch[k].guess : ClosestPoints{t_a, t_b};
       const bool near = std::max(std::abs(guess.t_a - t_a), std::abs(guess.t_b - t_b)) <= spacing;
       descents_.push_back({first + k, t_a, t_b, near ? guess.t_a : t_a, near ? guess.t_b : t_b});
       if (!near) {  // it may be in a basin that the samples do not resolve

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/contact/gap_at.hpp"
 
@@ -127,7 +126,8 @@ Place close_in(double level, int own, double inside, Place end, NearestFinder& s
   return end;
 }
 
-/// Where the level set around the point `t` of segment `own` ends, towards the tail or the head.
+/// The end of the level set around the point `t` of segment `own`, towards the tail or the head:
+/// walks on while borders of segments are within it, then closes in on the last segment.
 Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                  double level, bool tail, int own, double t, std::vector<int>& near) {
   NearestFinder strand(segments, settings, tail, near);

@@ -1,7 +1,7 @@
 #include "core/contact/obstacles.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace hagfish {
 namespace {
@@ -25,7 +25,7 @@ Eigen::Vector3d point_of(const Strand& strand, int i) {
 SplineSegment segment_of(const Strand& strand, int i) {
   SplineSegment s;
   s.r0 = strand.radius;
-  s.s0 = std::numeric_limits<double>::infinity();
+  s.s0 = INFINITY;
   s.s1 = (point_of(strand, i + 1) - point_of(strand, i)).norm();
   set_curve(point_of(strand, i - 1), point_of(strand, i), point_of(strand, i + 1),
             point_of(strand, i + 2), s);
@@ -40,10 +40,9 @@ SplineSegment gap_behind(const SplineSegment& before, int obstacle) {
   s.c1 = before.slope(1);
   s.c2 = s.c3 = Eigen::Vector3d::Zero();
   s.r0 = before.radius(1);
-  s.s0 = std::numeric_limits<double>::infinity();
+  s.s0 = INFINITY;
   s.middle = s.c0;
-  s.bound =
-      std::numeric_limits<double>::quiet_NaN();  // no comparison of a distance with it is true
+  s.bound = NAN;  // no comparison of a distance with it is true
   s.obstacle = obstacle;
   return s;
 }
@@ -77,14 +76,6 @@ int strand_begin(const Model& model, int obstacle) {
 
 double strand_parameter(const Model& model, const Contact& contact) {
   return contact.segment_b - strand_begin(model, contact.obstacle) + contact.t_b;
-}
-
-int segment_count(const Model& model) {
-  int count = model.body_count() - 1;
-  for (const Obstacle& obstacle : model.obstacles) {
-    if (const Strand* strand = obstacle.strand()) count += 1 + segments_of(*strand);
-  }
-  return count;
 }
 
 void update_segments(const Model& model, const Eigen::Matrix3Xd& centre,

@@ -54,9 +54,6 @@ int strand_begin(const Model& model, int obstacle);
 /// The strand's parameter at `contact`, which counts the strand's segments.
 double strand_parameter(const Model& model, const Contact& contact);
 
-/// Number of segments in the list of update_segments().
-int segment_count(const Model& model);
-
 /// Writes the segments of the body, as update_spline() does, and behind them those of each strand.
 /// A far-away dummy segment lies before each strand, so that no two strands share an end.
 void update_segments(const Model& model, const Eigen::Matrix3Xd& centre,

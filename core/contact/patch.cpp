@@ -67,14 +67,13 @@ void list_near(const std::vector<SplineSegment>& segments, const ContactSettings
                bool tail, int own, double gap, std::vector<int>& near) {
   near.clear();
   const SplineSegment& strand = segments[own];
-  const double least_arc = settings.least_arc * (1 - 1e-9);  // as in the search
   const int count = static_cast<int>(segments.size());
   for (int k = tail ? 0 : own + 1; k < (tail ? own : count); ++k) {
     const SplineSegment& other = segments[k];
     const double reach = gap + other.bound + strand.bound;
     const double arc_between = tail ? strand.s0 - other.arc(1) : other.s0 - strand.arc(1);
-    if ((other.middle - strand.middle).squaredNorm() < reach * reach && arc_between >= least_arc &&
-        other.obstacle < 0) {
+    if ((other.middle - strand.middle).squaredNorm() < reach * reach &&
+        settings.may_touch(arc_between) && other.obstacle < 0) {
       near.push_back(k);
     }
   }

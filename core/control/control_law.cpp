@@ -29,7 +29,7 @@ void check_command(const Model& model, const ThigmotaxisCommand& command) {
   const auto on_body = [segments](int segment, double t) {
     return segment >= 0 && segment < segments && t >= 0 && t <= 1;
   };
-  constexpr double rounding = 1e-9;  // of a unit vector
+  constexpr double rounding = 1e-9;  // error of a unit vector
   const auto unit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1) <= rounding; };
   if (!on_body(c.segment_a, c.t_a) || !on_body(c.segment_b, c.t_b) || !unit(c.tangent_a) ||
       !unit(c.tangent_b)) {

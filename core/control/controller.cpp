@@ -6,13 +6,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 
 namespace hagfish {
 namespace {
 
-// A script that has not tied the knot within this share of its duration after its last knot has
-// failed.
+// A script that has not tied the knot within this share of its duration after its end has failed.
 constexpr double patience = 0.4;
 
 void enter(ControllerState& controller, Phase phase, double time) {

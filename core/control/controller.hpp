@@ -3,7 +3,7 @@
 // control law decides what is done in each phase (control_law.hpp).
 #pragma once
 
-#include <limits>
+#include <cmath>
 #include <optional>
 
 #include "core/control/laws.hpp"
@@ -30,14 +30,14 @@ struct PullSum {
 
 struct ControllerState {
   Phase phase = Phase::form;
-  double phase_start = 0;  ///< s
-  double loose = 0;        ///< time at which the knot last spanned more than tight_span, s
-  KnotVote knot;           ///< knot as last seen
-  double knot_seen = -std::numeric_limits<double>::infinity();  ///< time at which it was seen, s
-  double knot_from = 0;  ///< time since when it is of that type, s
-  PastKnot past;         ///< the last knot before it; an unknot where there was none
-  std::string lost;      ///< how the knot was lost, in scenes that only warn; empty before that
-  TouchingEnds ends;     ///< the knot's first and last contact
+  double phase_start = 0;        ///< s
+  double loose = 0;              ///< time at which the knot last spanned more than tight_span, s
+  KnotVote knot;                 ///< knot as last seen
+  double knot_seen = -INFINITY;  ///< time at which it was seen, s
+  double knot_from = 0;          ///< time since when it is of that type, s
+  PastKnot past;                 ///< the last knot before it; an unknot where there was none
+  std::string lost;   ///< how the knot was lost, in scenes that only warn; empty before that
+  TouchingEnds ends;  ///< the knot's first and last contact
   PullSum pull;
   Eigen::VectorXd rest_shape;  ///< rest shape as last commanded (Control), nv or empty
   Eigen::VectorXd memory;      ///< memory of the control law

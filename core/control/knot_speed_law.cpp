@@ -34,7 +34,7 @@ void knot_speed_law(const Situation& at, Eigen::VectorXd& memory, Control& contr
   const double h = at.scene.time.step;
   const double arc = control.thigmotaxis[0].contact.arc_a;
   const double kept = std::exp(-h / loop.filter);
-  const double lag = h / (1 - kept);  // of the smoothed place of the last step, at steady speed, s
+  const double lag = h / (1 - kept);  // lag of the last step's smoothed place at steady speed, s
   if (memory.size() == 0) {
     memory.resize(knot_speed_memory);
     memory << arc + lag * loop.target, 1;

@@ -9,7 +9,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/control/control_law.hpp"
 #include "core/scene/phase.hpp"

@@ -33,7 +33,7 @@ void paper_control(const Situation& at, const Eigen::VectorXd& memory, const Con
 }
 
 Eigen::Index memory_size(const Model& model, const Scene& /*scene*/) {
-  return model.nv() + static_cast<Eigen::Index>(model.muscles.size());
+  return model.nv() + model.muscle_count();
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Eigen::Index memory_size(const Model& model, const Scene& /*scene*/) {
 void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                 MuscleStorage& storage) {
   const Model& model = at.model;
-  const auto count = static_cast<Eigen::Index>(model.muscles.size());
+  const auto count = model.muscle_count();
   UntakenStep& paper = storage.paper;
   paper_control(at, memory, control, storage.shape_ahead, paper.control);
   control.tip = paper.control.tip;
@@ -52,7 +52,7 @@ void muscle_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
   if (phase_order(at.so_far.phase) >= phase_order(Phase::release)) {
     wanted.activation.setZero(count);
   } else {
-    solve_untaken(at, at.scene, paper);
+    paper.solve(at, at.scene);
     storage.torque = paper.step.active_torque + paper.step.force[RowKind::thigmotaxis];
     storage.activations.solve(model, kin, storage.torque, wanted);
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "core/control/laws.hpp"
 #include "core/control/untaken_step.hpp"

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -14,13 +13,12 @@
 namespace hagfish {
 namespace {
 
-constexpr Eigen::Index head = 3;  // numbers of the memory before the amplitudes
+constexpr Eigen::Index before_amplitudes = 3;  ///< numbers of the memory
 
 /// For all shapes, the part about the axis of `hinge` at `x`: cm of arc, or a share of the window.
 void set_shapes(const ReducedBasisSettings& basis, const Hinge& hinge, double sign, double x,
                 Eigen::MatrixXd::RowXpr shapes) {
-  // Columns are about Y, about Z, twist.
-  const int axis = (static_cast<int>(hinge.axis) + 2) % 3;
+  const int axis = shape_row(hinge.axis);
   if (basis.cosines > 0) {
     for (int j = 0; j < basis.cosines; ++j) {
       shapes[axis * basis.cosines + j] = sign * std::cos(std::numbers::pi * j * x);
@@ -29,7 +27,7 @@ void set_shapes(const ReducedBasisSettings& basis, const Hinge& hinge, double si
   }
   if (x < basis.stations.front() || x > basis.stations.back()) return;
   const std::size_t count = basis.stations.size();
-  const TablePlace place = place_among(basis.stations, x);
+  const Bracket place = bracket_of(basis.stations, x);
   const std::vector<double>& values =
       axis == 0 ? basis.bend_y : (axis == 1 ? basis.bend_z : basis.twist);
   for (Eigen::Index j = 0; j < shapes.size(); ++j) {
@@ -72,13 +70,13 @@ void look_forward(const Situation& at, const Scene& scene, double steps, const C
   } else {
     ahead.control.active = {};
   }
-  begin_untaken(at, scene, ahead);
+  ahead.begin(at, scene);
 }
 
 /// Eq. 6 after a step as a function of a: gain a >= shortfall.
 struct Eq6 {
   Eigen::MatrixXd gain;       ///< cm/s of each row for a unit of each a
-  Eigen::VectorXd shortfall;  ///< of each row at a = 0, cm/s
+  Eigen::VectorXd shortfall;  ///< shortfall of each row at a = 0, cm/s
 };
 
 /// Eq. 6 after the step `ahead` of length `h` (s), with the velocities of the rows that have a
@@ -130,7 +128,7 @@ Eigen::VectorXd find_least(const ReducedBasisSettings& basis, const Eq6& eq6,
                            const Eigen::MatrixXd& shapes) {
   const Eigen::Index count = eq6.shortfall.size();
   BoxQp qp{eq6.gain * eq6.gain.transpose(), eq6.shortfall, Eigen::VectorXd::Zero(count),
-           Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
+           Eigen::VectorXd::Constant(count, INFINITY)};
   qp.A.diagonal().array() += basis.softness * qp.A.diagonal().maxCoeff();
   const BoxQpSolution solution = make_box_qp_solver("active-set")->solve(qp, qp.lower);
   if (solution.status != SolveStatus::solved) {
@@ -146,7 +144,7 @@ Eigen::VectorXd find_least(const ReducedBasisSettings& basis, const Eq6& eq6,
 
 /// The played a at the knot's place.
 void play(const ReducedBasisSettings& basis, double head_end, Eigen::VectorXd& a) {
-  const TablePlace place = place_among(basis.places, head_end);
+  const Bracket place = bracket_of(basis.places, head_end);
   const auto size = static_cast<std::size_t>(a.size());
   for (std::size_t j = 0; j < size; ++j) {
     a[static_cast<Eigen::Index>(j)] =
@@ -222,22 +220,21 @@ void basis_shapes(const Model& model, const Scene& scene, const KnotSpan& window
   const bool knot = basis.frame == BasisFrame::knot;
   const double from = knot ? window.head_end - basis.margin : 0;
   const double to = knot ? window.tail_end + basis.margin : length;
-  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+  for (int k = 0; k < model.hinge_count(); ++k) {
     const Hinge& hinge = model.hinges[k];
     const double arc = length * hinge.body / model.body_count();
     if (arc < from || arc > to) continue;
     const bool share = knot || basis.cosines > 0;
     set_shapes(basis, hinge, scene.mirror && hinge.axis != Axis::y ? -1 : 1,
-               share ? (arc - from) / (to - from) : arc,
-               shapes.row(root_dofs + static_cast<Eigen::Index>(k)));
+               share ? (arc - from) / (to - from) : arc, shapes.row(root_dofs + k));
   }
 }
 
 void unpack(const Eigen::VectorXd& memory, ReducedBasisMemory& unpacked) {
-  const Eigen::Index size = (memory.size() - head) / 2;
+  const Eigen::Index size = (memory.size() - before_amplitudes) / 2;
   unpacked.next = memory[0];
   unpacked.window = {memory[1], memory[2]};
-  unpacked.aim = memory.segment(head, size);
+  unpacked.aim = memory.segment(before_amplitudes, size);
   unpacked.now = memory.tail(size);
 }
 
@@ -277,7 +274,7 @@ void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& co
   control.torque.value.noalias() = storage.shapes * m.now;
   control.torque.rate.setZero(at.model.nv());
   for (ThigmotaxisCommand& command : control.thigmotaxis) command.effort = 0;
-  memory.resize(head + 2 * m.now.size());
+  memory.resize(before_amplitudes + 2 * m.now.size());
   memory << m.next, m.window.head_end, m.window.tail_end, m.aim, m.now;
 }
 
@@ -286,7 +283,7 @@ extern constinit const Law reduced_basis_record{
     .description = "a few numbers times fixed shapes of torque slide the knot",
     .make = law_with_storage<ReducedBasisStorage, reduced_basis_law>,
     .memory_size = [](const Model& /*model*/, const Scene& scene) -> Eigen::Index {
-      return head + 2 * basis_size(scene.controller.reduced_basis);
+      return before_amplitudes + 2 * basis_size(scene.controller.reduced_basis);
     },
     .fault = fault,
     .numbers = numbers,

@@ -23,8 +23,7 @@ double span_of(const Model& model, int k) { return hinge_span(model, model.hinge
 
 /// The next hinge of the same kind, tailward (`way` 1) or headward (-1); -1 if there is none.
 int neighbour(const Model& model, int k, int way) {
-  const auto count = static_cast<int>(model.hinges.size());
-  for (int i = k + way; i >= 0 && i < count; i += way) {
+  for (int i = k + way; i >= 0 && i < model.hinge_count(); i += way) {
     if (model.hinges[i].axis == model.hinges[k].axis) return i;
   }
   return -1;
@@ -73,7 +72,8 @@ void add_noise(const ReflexSettings& reflex, std::int64_t step, Eigen::VectorXd&
   for (double& angle : sensed) angle *= 1 + reflex.noise * normal_draw(random);
 }
 
-/// The angles of some steps ago, which `memory` holds.
+/// The angles of `lag` steps ago. `memory` begins with the sensed angles. Behind them is a ring of
+/// `lag` rows, in which this step's row is the oldest one: it is sensed, and overwritten.
 void sense_late(const Scene& scene, double time, const Eigen::VectorXd& q, Eigen::Index count,
                 Eigen::VectorXd& memory, Eigen::VectorXd& sensed) {
   const int lag = reflex_lag(scene);
@@ -99,10 +99,6 @@ void copy_neighbours(const Model& model, const Scene& scene, Phase phase,
   }
 }
 
-Eigen::Index hinge_count(const Model& model) {
-  return static_cast<Eigen::Index>(model.hinges.size());
-}
-
 }  // namespace
 
 bool reflex_acts(Phase phase) {
@@ -121,7 +117,7 @@ int reflex_lag(const Scene& scene) {
 
 Eigen::Index reflex_memory_size(const Model& model, const Scene& scene) {
   const int lag = reflex_lag(scene);
-  return lag == 0 ? 0 : (lag + 1) * hinge_count(model);
+  return lag == 0 ? 0 : (lag + 1) * model.hinge_count();
 }
 
 double copied_angle(const Model& model, const Eigen::VectorXd& angles, int k, double shift) {
@@ -155,7 +151,7 @@ void reflex_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
   }
   look_ahead(scene, q, qdot, storage.own);
   if (reflex_lag(scene) > 0) {
-    sense_late(scene, time, q, hinge_count(model), memory, storage.sensed);
+    sense_late(scene, time, q, model.hinge_count(), memory, storage.sensed);
   } else {
     storage.sensed = storage.own;
   }
@@ -172,7 +168,7 @@ constexpr LawNumbers numbers[] = {
      .unit = "rad",
      .description = "angles of the hinges that the senses show, late, without their noise",
      .size = [](const Model& model, const Scene& scene) -> Eigen::Index {
-       return reflex_lag(scene) > 0 ? hinge_count(model) : 0;
+       return reflex_lag(scene) > 0 ? model.hinge_count() : 0;
      },
      .of = [](const Eigen::VectorXd& memory,
               Eigen::Index size) { return Eigen::VectorXd(memory.head(size)); }}};

@@ -1,26 +1,36 @@
-#include "core/control/reflex_muscles.hpp"
-
+// The reflex by muscles alone (addition).
 #include "core/control/controller.hpp"
 #include "core/control/muscle_law.hpp"
+#include "core/control/reflex.hpp"
 #include "core/muscle/active_curvature.hpp"
 
 namespace hagfish {
 namespace {
 
-/// Stands for each angle that the senses have not shown yet, rad: no hinge turns so far.
+/// Stands for each angle that the senses have not shown yet, rad: no hinge turns so far. The memory
+/// has one length, while that of reflex_law is empty at first.
 constexpr double none = 1e6;
 
-Eigen::Index muscle_count(const Model& model) {
-  return static_cast<Eigen::Index>(model.muscles.size());
-}
+/// Storage of reflex_muscles_law.
+struct ReflexMusclesStorage {
+  ReflexStorage reflex;
+  Eigen::VectorXd senses;  ///< memory of the reflex
+  ActiveTorque active;
+  Eigen::VectorXd torque;  ///< torque that is asked for, dyn cm, nv
+  ActivationSolver activations;
+  MuscleEffort wanted;
+};
 
-}  // namespace
-
+/// Activations alone move the animal. Excitations are the activations that would give the torques
+/// of reflex_law, and the activations follow them by first-order dynamics. While the knot forms,
+/// excitations are ahead by that lag, and from the release on nothing is excited, as in muscle_law.
+///
+/// `memory`: that of reflex_law, padded where it is empty, then the activations.
 void reflex_muscles_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                         ReflexMusclesStorage& storage) {
   const auto& [model, scene, now, time, so_far] = at;
   const Kinematics& kin = now.observation.kin;
-  const Eigen::Index muscles = muscle_count(model);
+  const Eigen::Index muscles = model.muscle_count();
   const Eigen::Index senses = reflex_memory_size(model, scene);
   if (memory.size() == 0) {
     memory.setZero(senses + muscles);
@@ -50,13 +60,15 @@ void reflex_muscles_law(const Situation& at, Eigen::VectorXd& memory, Control& c
   drive_muscles(at, storage.wanted.activation, memory, control);
 }
 
+}  // namespace
+
 extern constinit const Law reflex_muscles_record =
     driven_law({.name = "reflex_muscles",
                 .description = "the reflex by activations of muscles alone",
                 .make = law_with_storage<ReflexMusclesStorage, reflex_muscles_law>,
                 .memory_size =
                     [](const Model& model, const Scene& scene) {
-                      return reflex_memory_size(model, scene) + muscle_count(model);
+                      return reflex_memory_size(model, scene) + model.muscle_count();
                     },
                 .fault =
                     [](const Specimen& specimen, const Scene& scene) {

@@ -7,10 +7,10 @@
 namespace hagfish {
 namespace {
 
-/// Place of a knot, including noise.
-Eigen::Vector3d at(const Waypoint& knot) { return knot.value + knot.noise; }
+/// Value of a waypoint, including noise.
+Eigen::Vector3d at(const Waypoint& waypoint) { return waypoint.value + waypoint.noise; }
 
-/// Catmull-Rom tangent of knot k by finite differences in time.
+/// Catmull-Rom tangent of waypoint k by finite differences in time.
 Eigen::Vector3d tangent(const std::vector<Waypoint>& waypoints, std::size_t k) {
   const std::size_t before = k > 0 ? k - 1 : k;
   const std::size_t after = std::min(k + 1, waypoints.size() - 1);
@@ -27,7 +27,7 @@ double script_end(const ScriptSettings& script) {
 
 Eigen::Vector3d script_value(const ScriptSettings& script, double time) {
   const std::vector<Waypoint>& waypoints = script.waypoints;
-  const auto [k, u] = place_among(waypoints, time, &Waypoint::time);
+  const auto [k, u] = bracket_of(waypoints, time, &Waypoint::time);
   if (u == 0) return at(waypoints[k]);
   const double span = waypoints[k + 1].time - waypoints[k].time;
   if (script.kind == ScriptSettings::Kind::force) {

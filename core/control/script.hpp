@@ -9,11 +9,11 @@
 
 namespace hagfish {
 
-/// Value of a script at `time`, constant outside its knots. Forces are linear between knots.
+/// Value of a script at `time`, constant outside its waypoints. Forces are linear between these.
 /// Positions are a Catmull-Rom spline through time.
 Eigen::Vector3d script_value(const ScriptSettings& script, double time);
 
-/// Time of the last knot or of the curvature program's last shape, s; 0 without a script.
+/// Time of the last waypoint or of the curvature program's last shape, s; 0 without a script.
 double script_end(const ScriptSettings& script);
 
 /// The script's force on the last body for the step from `time`; none with a curvature program. A

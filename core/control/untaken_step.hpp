@@ -6,18 +6,17 @@
 
 namespace hagfish {
 
-/// Storage of such a step, which is allocated once.
+/// Such a step, whose storage is allocated once.
 struct UntakenStep {
   Control control;  ///< control of the step
   StepSolver solver{"active-set"};
   StepSolution step;
+
+  /// Begins the step of `scene` from the state of `at`. It has no warm start, so that it depends on
+  /// these and `control` alone. Throws StepError if the step cannot be solved.
+  void begin(const Situation& at, const Scene& scene);
+  /// Solves the step to its end, with the forces of all rows. Throws as begin() does.
+  void solve(const Situation& at, const Scene& scene);
 };
-
-/// Begins the step of `scene` from the state of `at` by `untaken.control`. It has no warm start, so
-/// that it depends on these alone. Throws StepError if the step cannot be solved.
-void begin_untaken(const Situation& at, const Scene& scene, UntakenStep& untaken);
-
-/// Solves the step to its end, with the forces of all rows.
-void solve_untaken(const Situation& at, const Scene& scene, UntakenStep& untaken);
 
 }  // namespace hagfish

@@ -61,16 +61,12 @@ void check_start(const TableReader& root, const ResolvedScene& resolved) {
 
 void check_passive(const TableReader& root, const ResolvedScene& resolved) {
   const Specimen& s = resolved.specimen;
-  const std::size_t count = s.station.size();
+  if (resolved.scene.model.passive != PassiveSource::specimen) return;
   for (const auto& [key, values] : {std::pair("bending_stiffness", &s.bending_stiffness),
                                     {"bending_damping", &s.bending_damping},
                                     {"twist_stiffness", &s.twist_stiffness},
                                     {"twist_damping", &s.twist_damping}}) {
-    if (!values->empty() && values->size() != count) {
-      root.fail("specimen", "its passive." + std::string(key) +
-                                " must have as many values as station, " + std::to_string(count));
-    }
-    if (values->empty() && resolved.scene.model.passive == PassiveSource::specimen) {
+    if (values->empty()) {
       root.fail("model.passive", "the specimen has no passive." + std::string(key));
     }
   }
@@ -93,23 +89,18 @@ void check_active(const TableReader& root, const Scene& scene) {
 }
 
 void check_muscles(const TableReader& root, const ResolvedScene& resolved) {
-  const MuscleSettings& settings = resolved.scene.muscle;
+  if (!resolved.scene.muscle.present) return;
   const MuscleTissue& tissue = resolved.specimen.muscle;
-  const std::size_t count = resolved.specimen.station.size();
   for (const auto& [key, area] : {std::pair("longitudinal_area", &tissue.longitudinal_area),
                                   {"oblique_area", &tissue.oblique_area}}) {
-    if (!area->empty() && area->size() != count) {
-      root.fail("specimen", "its muscle." + std::string(key) +
-                                " must have as many values as station, " + std::to_string(count));
-    }
-    if (settings.present && area->empty()) {
+    if (area->empty()) {
       root.fail("muscle.present", "the specimen has no muscle." + std::string(key));
     }
   }
   for (const auto& [key, value] : {std::pair("stress", tissue.stress),
                                    {"radius_share", tissue.radius_share},
                                    {"oblique_angle", tissue.oblique_angle}}) {
-    if (settings.present && value == 0) {
+    if (value == 0) {
       root.fail("muscle.present", "the specimen's muscle." + std::string(key) +
                                       " is 0 or missing, but must be positive");
     }

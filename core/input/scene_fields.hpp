@@ -4,11 +4,9 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/control/laws.hpp"
@@ -38,15 +36,15 @@ inline ActingKey Acts::operator()(std::string_view key) const { return {key, *th
 
 enum class WaypointUnit { unsaid, dyn, newton, cm, metre, body_length };
 
-/// Unit of the noise of a script's knots.
+/// Unit of the noise of a script's waypoints.
 inline Unit waypoint_unit(ScriptSettings::Kind kind) {
   using Kind = ScriptSettings::Kind;
   return kind == Kind::force ? cgs::dyn : kind == Kind::position ? cgs::cm : cgs::one;
 }
 
-/// A script as its file spells it: knots in rows [t, x, y, z], in `unit`.
+/// A script as its file spells it: waypoints in rows [t, x, y, z], in `unit`.
 struct ScriptFile {
-  ScriptSettings settings;  ///< all but the knots
+  ScriptSettings settings;  ///< all but the waypoints
   WaypointUnit unit = WaypointUnit::unsaid;
   std::vector<Eigen::Vector4d> rows;
   std::string program;  ///< CSV file of a curvature program, or empty
@@ -209,9 +207,9 @@ void script_fields(Io& io, ScriptFile& s) {
   const Acts script{kind != Kind::none, "script.kind is \"none\": there is no script"};
   const Acts curvature{kind == Kind::curvature, "only script.kind = \"curvature\" reads it"};
   const Acts position{kind == Kind::position, "only script.kind = \"position\" reads it"};
-  const Acts knots = kind == Kind::curvature
-                         ? Acts{false, "script.kind = \"curvature\" reads script.program"}
-                         : script;
+  const Acts waypoints = kind == Kind::curvature
+                             ? Acts{false, "script.kind = \"curvature\" reads script.program"}
+                             : script;
   io.number(position("spring"), s.settings.spring, not_negative(cgs::spring));
   io.number(position("damper"), s.settings.damper, not_negative(cgs::damper));
   io.number(position("largest_force"), s.settings.largest_force, not_negative(cgs::dyn));
@@ -224,7 +222,7 @@ void script_fields(Io& io, ScriptFile& s) {
                                     {"cm", WaypointUnit::cm},
                                     {"m", WaypointUnit::metre},
                                     {"L", WaypointUnit::body_length}});
-  io.rows(knots("knots"), "knot", "t, x, y, z", s.rows);
+  io.rows(waypoints("knots"), "knot", "t, x, y, z", s.rows);
   io.string(curvature("program"), s.program);
   io.table(curvature("curvature"), [&s](Io& table) {
     table.numbers("times", s.curvature.times, not_negative());

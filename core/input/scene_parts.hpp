@@ -1,7 +1,6 @@
 // The first and the last part of read_scene_source().
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/input/scene_text.hpp"

@@ -42,14 +42,20 @@ Specimen read_specimen_table(TableReader& table) {
       table.fail("station", "must rise; station " + std::to_string(i + 1) + " does not");
     }
   }
-  const std::string count = std::to_string(s.station.size());
-  if (s.circumference.size() != s.station.size()) {
-    table.fail("circumference", "must have as many values as station, " + count);
-  }
-  if (s.bending_limit.size() != s.station.size()) {
-    const bool radians = table.has("bending_limit_rad");
-    table.fail(radians ? "bending_limit_rad" : "bending_limit_deg",
-               "must have as many values as station, " + count);
+  const std::size_t count = s.station.size();
+  const bool radians = table.has("bending_limit_rad");
+  for (const auto& [key, values] :
+       {std::pair("circumference", &s.circumference),
+        {radians ? "bending_limit_rad" : "bending_limit_deg", &s.bending_limit},
+        {"passive.bending_stiffness", &s.bending_stiffness},
+        {"passive.bending_damping", &s.bending_damping},
+        {"passive.twist_stiffness", &s.twist_stiffness},
+        {"passive.twist_damping", &s.twist_damping},
+        {"muscle.longitudinal_area", &s.muscle.longitudinal_area},
+        {"muscle.oblique_area", &s.muscle.oblique_area}}) {
+    if (!values->empty() && values->size() != count) {
+      table.fail(key, "must have as many values as station, " + std::to_string(count));
+    }
   }
   if (s.bending_span > s.length) {
     table.fail("bending_span", "must not exceed the length, " + shortest(s.length) + " cm");
@@ -136,8 +142,8 @@ void resolve_basis(const TableReader& root, double length, const Sources& source
   if (basis.twist.size() != size) root.fail(table + "twist", "must be as long as bend_y");
 }
 
-/// One of the unit of the knots of `file`, dyn or cm, for an animal of `length` (cm).
-double knot_size(const TableReader& root, const ScriptFile& file, double length) {
+/// One of the unit of the waypoints of `file`, dyn or cm, for an animal of `length` (cm).
+double waypoint_size(const TableReader& root, const ScriptFile& file, double length) {
   const bool position = file.settings.kind == ScriptSettings::Kind::position;
   const bool force = file.unit == WaypointUnit::dyn || file.unit == WaypointUnit::newton;
   if (file.unit != WaypointUnit::unsaid && position == force) {
@@ -171,7 +177,7 @@ ScriptSettings resolve_script(const TableReader& root, const ScriptFile& file, d
     return script;
   }
   const bool position = script.kind == Kind::position;
-  const double unit = knot_size(root, file, length);
+  const double unit = waypoint_size(root, file, length);
   if (file.rows.size() < 2) root.fail("script.knots", "a script needs two knots or more");
   if (file.rows[0][0] != 0) root.fail_element("script.knots", 0, "knot 1 must be at time 0");
   for (std::size_t i = 0; i < file.rows.size(); ++i) {
@@ -264,17 +270,17 @@ void draw_noise(ScriptSettings& script) {
     Eigen::Matrix3Xd& noise = script.curvature.noise.emplace_back(3, value.cols());
     for (double& coordinate : noise.reshaped()) coordinate = script.noise * normal_draw(random);
   }
-  for (Waypoint& knot : script.waypoints) {
-    for (double& coordinate : knot.noise) coordinate = script.noise * normal_draw(random);
+  for (Waypoint& waypoint : script.waypoints) {
+    for (double& coordinate : waypoint.noise) coordinate = script.noise * normal_draw(random);
   }
 }
 
 /// The mirror image, y to -y, of all that the scene gives; applied twice, the scene itself.
 void reflect(Scene& scene) {
   scene.gravity.y() *= -1;
-  for (Waypoint& knot : scene.script.waypoints) {
-    knot.value.y() *= -1;
-    knot.noise.y() *= -1;
+  for (Waypoint& waypoint : scene.script.waypoints) {
+    waypoint.value.y() *= -1;
+    waypoint.noise.y() *= -1;
   }
   // Turns about x and z change sign.
   for (auto* values : {&scene.script.curvature.value, &scene.script.curvature.noise}) {
@@ -363,8 +369,8 @@ std::string scene_to_toml(const Scene& scene, const Specimen& specimen) {
   script.settings = fields.script;
   // Positions in cm, as they are in memory: a division by the length would not undo to the bit.
   script.unit = scene.script.kind == Kind::position ? WaypointUnit::cm : WaypointUnit::dyn;
-  for (const auto& knot : fields.script.waypoints) {
-    script.rows.emplace_back(knot.time, knot.value.x(), knot.value.y(), knot.value.z());
+  for (const auto& [time, value, _] : fields.script.waypoints) {
+    script.rows.emplace_back(time, value.x(), value.y(), value.z());
   }
   script.curvature = program_table(fields.script.curvature);
   std::vector<ObstacleFile> obstacles;

@@ -10,9 +10,11 @@
 // that read throw InputError, whose one line names file, key and reason.
 #pragma once
 
+#include <exception>
 #include <map>
 #include <optional>
 #include <string>
+#include <typeinfo>
 #include <vector>
 
 #include "core/chain/model.hpp"
@@ -60,6 +62,10 @@ ResolvedScene read_scene_source(const SceneSource& source,
 
 /// The specimen in `text`; `name` stands for its file in errors.
 Specimen read_specimen_text(const std::string& text, const std::string& name);
+
+/// What `thrown`, which is of `type`, says of bad syntax, as InputError would have it: for programs
+/// that do not catch it. Nothing where it is not of the parser's.
+std::optional<std::string> toml_fault(const std::exception& thrown, const std::type_info& type);
 
 /// The whole scene, the specimen in it, as text from which read_scene_source() makes the same
 /// numbers to the last bit. Throws std::invalid_argument for a number that is not finite.

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,7 +14,7 @@ namespace {
 /// of the crossing is rounded by less than a fifth of it: no decision made depends on rounding.
 constexpr double least_share = 1e-7;
 
-/// Where two edges of the projection cross.
+/// A crossing of two edges of the projection.
 struct Meeting {
   double at_first, at_second;  ///< from the edge's start, projected length
   bool first_over;
@@ -72,7 +71,7 @@ std::optional<Meeting> meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  .sign = volume > 0 ? -1 : 1};
 }
 
-/// Of the closed polygon `view`: behind the last comes the first.
+/// Vertex of the closed polygon `view`: behind the last comes the first.
 auto vertex(const Eigen::Matrix3Xd& view, int k) { return view.col(k < view.cols() ? k : 0); }
 
 void set_box(const Eigen::Matrix3Xd& view, int edge, Rectangles& edges) {
@@ -84,17 +83,16 @@ void set_box(const Eigen::Matrix3Xd& view, int edge, Rectangles& edges) {
   edges.top[edge] = std::max(from.y(), to.y());
 }
 
-/// So many empty ones, and at least a batch more, which overlap none.
+/// `count` rectangles, all empty, and a batch more. They overlap none.
 Rectangles empty_rectangles(Eigen::Index count) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Eigen::Index size = count + batch;
   Rectangles none;
-  none.left = none.bottom = Eigen::ArrayXd::Constant(size, infinity);
-  none.right = none.top = Eigen::ArrayXd::Constant(size, -infinity);
+  none.left = none.bottom = Eigen::ArrayXd::Constant(size, INFINITY);
+  none.right = none.top = Eigen::ArrayXd::Constant(size, -INFINITY);
   return none;
 }
 
-/// Of the edges of the closed polygon `view`.
+/// Boxes of the edges of the closed polygon `view`.
 EdgeBoxes boxes_of_edges(const Eigen::Matrix3Xd& view) {
   const int count = static_cast<int>(view.cols());
   const int batches = (count + batch - 1) / batch;
@@ -166,6 +164,16 @@ void check_order(double tolerance, Diagram& diagram) {
   }
 }
 
+/// Uniform on the sphere, from the generator's bits alone: the same on every platform.
+Eigen::Vector3d random_direction(std::mt19937& random) {
+  while (true) {
+    Eigen::Vector3d point;
+    for (double& coordinate : point) coordinate = static_cast<double>(random()) * 0x1p-31 - 1;
+    const double square = point.squaredNorm();
+    if (square > 0.01 && square < 1) return point / std::sqrt(square);
+  }
+}
+
 }  // namespace
 
 Diagram diagram_of_closed(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& direction) {
@@ -214,6 +222,21 @@ Diagram SeenArc::closed(const Eigen::Vector3d& out) {
   std::inplace_merge(diagram.passages.begin(), added, diagram.passages.end(), earlier);
   check_order(tolerance_, diagram);
   return diagram;
+}
+
+RandomClosures::RandomClosures(const Eigen::Matrix3Xd& centreline, unsigned seed)
+    : centreline_(centreline), random_(seed) {
+  // The edge that joins the ends must pass outside the ball around the centreline; more than two
+  // radii away is enough, and farther would only cost precision.
+  const Eigen::Vector3d middle = centreline.rowwise().mean();
+  far_ = 4 * (centreline.colwise() - middle).colwise().norm().maxCoeff();
+}
+
+Diagram RandomClosures::draw() {
+  const Eigen::Vector3d out = random_direction(random_);
+  const Eigen::Vector3d sight = random_direction(random_);
+  if (!seen_) seen_.emplace(centreline_, far_, sight);
+  return seen_->closed(out);
 }
 
 }  // namespace hagfish

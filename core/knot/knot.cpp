@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/knot/closures.hpp"
 #include "core/knot/colouring.hpp"
 #include "core/knot/diagram.hpp"
 

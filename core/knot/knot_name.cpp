@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 
 namespace hagfish {
 namespace {

@@ -1,12 +1,10 @@
 #include "core/log/log_frame.hpp"
 
-#include <limits>
+#include <cmath>
 #include <string>
 
 namespace hagfish {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Some tens of a frame; a chunk is read and written as one.
 constexpr hsize_t chunk_rows = 1024;
@@ -27,7 +25,7 @@ LogTable<BearingContact> contact_table(const Scene& scene, LogLevel level) {
             "spline parameter on the strand nearer the tail; nan where it is the head plate, or "
             "another obstacle"},
            [](const BearingContact& c) {
-             return c.row.kind == RowKind::obstacle ? nan : c.row.points().b.parameter;
+             return c.row.kind == RowKind::obstacle ? NAN : c.row.points().b.parameter;
            });
   t.number("/contacts/force",
            {"dyn", "multiplier over h of the step at the frame, along the normal"},
@@ -41,7 +39,7 @@ LogTable<BearingContact> contact_table(const Scene& scene, LogLevel level) {
          "spline parameter on the strand that is an obstacle, its segment + t; nan where it is "
          "a plane or the body itself"},
         [](const BearingContact& c) {
-          return c.row.kind == RowKind::obstacle ? c.row.points().b.parameter : nan;
+          return c.row.kind == RowKind::obstacle ? c.row.points().b.parameter : NAN;
         });
   }
   return t;

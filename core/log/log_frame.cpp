@@ -1,7 +1,7 @@
 #include "core/log/log_frame.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "core/control/laws.hpp"
 #include "core/log/ledger_columns.hpp"
@@ -11,7 +11,6 @@ namespace hagfish {
 namespace {
 
 constexpr std::array phases = names_by_value(phase_table);
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Frames are some 50 a second of simulated time; a chunk is read and written as one.
 constexpr hsize_t frame_chunk_rows = 64;
@@ -43,7 +42,7 @@ PullFigures pull_figures_of(const Frame& frame) {
 
 /// Spline parameters of the contacts that the controller follows, [first, last].
 std::array<double, 2> followed(const Frame& frame, int Contact::*segment, double Contact::*t) {
-  std::array<double, 2> pair{nan, nan};
+  std::array<double, 2> pair{NAN, NAN};
   const TouchingEnds& ends = frame.record.controller.ends;
   for (std::size_t k = 0; k < 2; ++k) {
     const std::optional<Contact>& contact = k == 0 ? ends.first : ends.last;
@@ -132,7 +131,7 @@ void declare_knot(LogTable<Frame>& t) {
             "its patch"},
            [](const Frame& f) {
              const auto span = knot_span(f.record.controller);
-             return span ? span->head_end : nan;
+             return span ? span->head_end : NAN;
            });
   t.number("/knot/tail_end",
            {"cm",
@@ -140,7 +139,7 @@ void declare_knot(LogTable<Frame>& t) {
             "its patch"},
            [](const Frame& f) {
              const auto span = knot_span(f.record.controller);
-             return span ? span->tail_end : nan;
+             return span ? span->tail_end : NAN;
            });
 }
 
@@ -222,13 +221,12 @@ void declare_control(const Model& model, LogTable<Frame>& t) {
 void declare_memory(const Model& model, const Scene& scene, LogTable<Frame>& t) {
   for (const LawNumbers& numbers : law_of(scene).numbers) {
     const bool of_muscles = numbers.size == nullptr;
-    const Eigen::Index size =
-        of_muscles ? static_cast<Eigen::Index>(model.muscles.size()) : numbers.size(model, scene);
+    const Eigen::Index size = of_muscles ? model.muscle_count() : numbers.size(model, scene);
     if (size == 0) continue;
     t.numbers(numbers.path, {{static_cast<hsize_t>(size), of_muscles ? muscle_labels : ""}},
               {numbers.unit, numbers.description}, [size, of = numbers.of](const Frame& f) {
                 const Eigen::VectorXd& memory = f.record.controller.memory;
-                return memory.size() == 0 ? Eigen::VectorXd::Constant(size, nan) : of(memory, size);
+                return memory.size() == 0 ? Eigen::VectorXd::Constant(size, NAN) : of(memory, size);
               });
   }
 }

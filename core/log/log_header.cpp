@@ -2,13 +2,13 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "core/knot/knot.hpp"
 #include "core/log/axis_labels.hpp"
 #include "core/log/build_info.hpp"
-#include "core/log/coordinate_names.hpp"
 #include "core/log/ledger_columns.hpp"
 #include "core/scene/phase.hpp"
 #include "core/step/rows/row_kind.hpp"
@@ -100,80 +100,92 @@ std::vector<std::pair<std::string, std::vector<std::string>>> enumerations() {
           {"/enumerations/knot", knots},   {"/enumerations/knot_invariants", invariants}};
 }
 
-/// Which muscles there are, and how strong.
-void write_muscles(const Model& model, Hdf5Writer& h5) {
-  std::vector<std::string> names;
-  Eigen::VectorXd force(static_cast<Eigen::Index>(model.muscles.size()));
-  for (const Muscle& muscle : model.muscles) {
-    force[static_cast<Eigen::Index>(names.size())] =
-        muscle.force * static_cast<double>(muscle.lines.size());
-    names.push_back(muscle.name);
-  }
-  h5.texts(muscle_labels, names);
-  h5.make_labels(muscle_labels);
-  h5.numbers("/model/muscle_force", force,
-             {"dyn", "largest force of each muscle, all of its lines together"});
-  h5.label("/model/muscle_force", {muscle_labels});
+namespace {
+
+/// Names that label the axes of other datasets.
+void write_labels(const char* path, const std::vector<std::string>& names, Hdf5Writer& h5) {
+  h5.texts(path, names);
+  h5.make_labels(path);
 }
 
-void write_model(const Model& model, Hdf5Writer& h5) {
-  const int n = model.body_count();
-  Eigen::VectorXd mass(n), length(n), radius(n);
-  for (int b = 0; b < n; ++b) {
-    mass[b] = model.bodies[b].mass;
-    length[b] = model.bodies[b].length;
-    radius[b] = model.bodies[b].radius;
-  }
-  Eigen::VectorXd lower = Eigen::VectorXd::Constant(model.nv(), -INFINITY);
-  Eigen::VectorXd upper = -lower;
-  const Eigen::Matrix2Xd ranges = hinge_ranges(model);
-  lower.tail(ranges.cols()) = ranges.row(0);
-  upper.tail(ranges.cols()) = ranges.row(1);
+/// Numbers along an axis that has `labels`.
+void write_along(const char* labels, const char* path, const Eigen::VectorXd& values,
+                 const Meaning& meaning, Hdf5Writer& h5) {
+  h5.numbers(path, values, meaning);
+  h5.label(path, {labels});
+}
+
+/// One number of each of a list.
+template <class T, class Of>
+Eigen::VectorXd each(const std::vector<T>& list, Of of) {
+  Eigen::VectorXd values(std::ssize(list));
+  std::ranges::transform(list, values.begin(), of);
+  return values;
+}
+
+void write_bodies(const Model& model, Hdf5Writer& h5) {
+  h5.numbers(body_labels, body_arcs(model),
+             {"cm", "arc length of each body's middle from the head's end at rest"});
+  h5.make_labels(body_labels);
+  write_along(body_labels, "/model/mass", each(model.bodies, &Body::mass),
+              {"g", "mass of each body, head to tail"}, h5);
+  write_along(body_labels, "/model/length", each(model.bodies, &Body::length),
+              {"cm", "length of each body"}, h5);
+  write_along(body_labels, "/model/radius", each(model.bodies, &Body::radius),
+              {"cm", "radius of the skin at each body"}, h5);
+}
+
+void write_joints(const Model& model, Hdf5Writer& h5) {
   std::vector<std::string> joints, dofs;
   for (const JointName& joint : joint_names(model)) {
     joints.push_back(joint.joint);
     dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
   }
+  write_labels(joint_labels, joints, h5);
+  write_labels(dof_labels, dofs, h5);
+  write_labels(coordinate_labels, coordinate_names(model), h5);
+  Eigen::VectorXd lower = Eigen::VectorXd::Constant(model.nv(), -INFINITY);
+  Eigen::VectorXd upper = -lower;
+  const Eigen::Matrix2Xd ranges = hinge_ranges(model);
+  lower.tail(ranges.cols()) = ranges.row(0);
+  upper.tail(ranges.cols()) = ranges.row(1);
+  write_along(dof_labels, "/model/limit_lower", lower,
+              {"rad",
+               "lower joint limit, -inf where none; where the total angle of a joint is bounded "
+               "(bending_limit), what this leaves each hinge by itself"},
+              h5);
+  write_along(dof_labels, "/model/limit_upper", upper,
+              {"rad", "upper joint limit, +inf where none, as limit_lower"}, h5);
+  write_along(joint_labels, "/model/bending_limit", bending_limits(model),
+              {"rad",
+               "largest angle between the X axes of the two bodies of each joint, +inf where "
+               "its hinges have limits of their own or there are none"},
+              h5);
+}
+
+/// Which muscles there are, and how strong.
+void write_muscles(const Model& model, Hdf5Writer& h5) {
+  std::vector<std::string> names;
+  for (const Muscle& muscle : model.muscles) names.push_back(muscle.name);
+  write_labels(muscle_labels, names, h5);
+  const auto whole = [](const Muscle& muscle) {
+    return muscle.force * static_cast<double>(muscle.lines.size());
+  };
+  write_along(muscle_labels, "/model/muscle_force", each(model.muscles, whole),
+              {"dyn", "largest force of each muscle, all of its lines together"}, h5);
+}
+
+}  // namespace
+
+void write_model(const Model& model, Hdf5Writer& h5) {
   h5.group("/enumerations");
   for (const auto& [path, names] : enumerations()) h5.texts(path, names);
   h5.group("/model");
-  h5.numbers(body_labels, body_arcs(model),
-             {"cm", "arc length of each body's middle from the head's end at rest"});
-  h5.numbers("/model/mass", mass, {"g", "mass of each body, head to tail"});
-  h5.numbers("/model/length", length, {"cm", "length of each body"});
-  h5.numbers("/model/radius", radius, {"cm", "radius of the skin at each body"});
-  h5.texts(joint_labels, joints);
-  h5.texts(dof_labels, dofs);
-  h5.texts(coordinate_labels, coordinate_names(model));
+  write_bodies(model, h5);
+  write_joints(model, h5);
   if (!model.muscles.empty()) write_muscles(model, h5);
-  if (!model.obstacles.empty()) {
-    h5.texts(obstacle_names_path, obstacle_names(model));
-    h5.make_labels(obstacle_names_path);
-  }
-  for (const auto& [path, names] : axis_names()) {
-    h5.texts(path, names);
-    h5.make_labels(path);
-  }
-  for (const char* path : {body_labels, joint_labels, dof_labels, coordinate_labels}) {
-    h5.make_labels(path);
-  }
-  h5.numbers("/model/limit_lower", lower,
-             {"rad",
-              "lower joint limit, -inf where none; where the total angle of a joint is bounded "
-              "(bending_limit), what this leaves each hinge by itself"});
-  h5.numbers("/model/limit_upper", upper,
-             {"rad", "upper joint limit, +inf where none, as limit_lower"});
-  h5.numbers("/model/bending_limit", bending_limits(model),
-             {"rad",
-              "largest angle between the X axes of the two bodies of each joint, +inf where "
-              "its hinges have limits of their own or there are none"});
-  for (const char* path : {"/model/mass", "/model/length", "/model/radius"}) {
-    h5.label(path, {body_labels});
-  }
-  for (const char* path : {"/model/limit_lower", "/model/limit_upper"}) {
-    h5.label(path, {dof_labels});
-  }
-  h5.label("/model/bending_limit", {joint_labels});
+  if (!model.obstacles.empty()) write_labels(obstacle_names_path, obstacle_names(model), h5);
+  for (const auto& [path, names] : axis_names()) write_labels(path, names, h5);
 }
 
 }  // namespace hagfish

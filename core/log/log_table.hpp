@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,43 +32,30 @@ class LogTable {
 
   template <class Get>  // double(const Source&)
   void number(const std::string& path, const Meaning& meaning, Get get) {
-    add<double>(layout_of<double>(path, {}, meaning), {},
-                [get](auto& series, const Source& source) { series.append(get(source)); });
+    add_values<double>(path, meaning, get);
   }
   template <class Get>  // anything with data() and size()
   void numbers(const std::string& path, const std::vector<LabelledAxis>& axes,
                const Meaning& meaning, Get get) {
-    add<double>(layout_of<double>(path, sizes(axes), meaning), axes,
-                [get](auto& series, const Source& source) {
-                  const auto& row = get(source);
-                  series.append(row.data(), row.size());
-                });
+    add_rows<double>(path, axes, meaning, get);
   }
   template <class Get>  // std::array<int, 2>(const Source&)
   void pair(const std::string& path, const std::string& description, Get get) {
-    add<std::int32_t>(
-        layout_of<std::int32_t>(path, {2}, {"1", description}), {{2, contact_labels}},
-        [get](auto& series, const Source& source) { series.append(get(source).data(), 2); });
+    add_rows<std::int32_t>(path, {{2, contact_labels}}, {"1", description}, get);
   }
   template <class Get>  // int(const Source&)
   void count(const std::string& path, const std::string& description, Get get) {
-    add<std::int32_t>(layout_of<std::int32_t>(path, {}, {"1", description}), {},
-                      [get](auto& series, const Source& source) {
-                        series.append(static_cast<std::int32_t>(get(source)));
-                      });
+    add_values<std::int32_t>(path, {"1", description}, get);
   }
   template <class Get>  // std::int64_t(const Source&)
   void index(const std::string& path, const std::string& description, Get get) {
-    add<std::int64_t>(layout_of<std::int64_t>(path, {}, {"1", description}), {},
-                      [get](auto& series, const Source& source) { series.append(get(source)); });
+    add_values<std::int64_t>(path, {"1", description}, get);
   }
   template <class Get>  // an enum class that counts up from 0 in the order of `names`
   void choice(const std::string& path, const std::vector<std::string>& names,
               const std::string& description, Get get) {
-    add<std::uint8_t>(layout_of_choices(path, names, {"1", description}), {},
-                      [get](auto& series, const Source& source) {
-                        series.append(static_cast<std::uint8_t>(get(source)));
-                      });
+    add(layout_of(path, {}, {"1", description}, choice_type(names)), {},
+        value_of<std::uint8_t>(get));
   }
 
   /// A row; none where a column throws, which is passed on.
@@ -85,13 +73,33 @@ class LogTable {
   const SeriesList& series() const { return series_; }
 
  private:
-  static std::vector<hsize_t> sizes(const std::vector<LabelledAxis>& axes) {
-    std::vector<hsize_t> sizes;
-    for (const LabelledAxis& axis : axes) sizes.push_back(axis.size);
-    return sizes;
+  using Put = std::function<void(Series& series, const Source& source)>;
+
+  /// Puts one T of each source.
+  template <class T, class Get>
+  static Put value_of(Get get) {
+    return [get](Series& series, const Source& source) {
+      const auto value = static_cast<T>(get(source));
+      series.append(&value, sizeof value);
+    };
+  }
+  template <class T, class Get>
+  void add_values(const std::string& path, const Meaning& meaning, Get get) {
+    add(layout_of(path, {}, meaning, stored_type<T>()), {}, value_of<T>(get));
+  }
+  template <class T, class Get>
+  void add_rows(const std::string& path, const std::vector<LabelledAxis>& axes,
+                const Meaning& meaning, Get get) {
+    std::vector<hsize_t> shape;
+    for (const LabelledAxis& axis : axes) shape.push_back(axis.size);
+    add(layout_of(path, shape, meaning, stored_type<T>()), axes,
+        [get](Series& series, const Source& source) {
+          const auto& row = get(source);
+          static_assert(std::is_same_v<std::decay_t<decltype(*row.data())>, T>);
+          series.append(row.data(), static_cast<std::size_t>(row.size()) * sizeof(T));
+        });
   }
 
-  template <class T, class Put>
   void add(SeriesLayout layout, const std::vector<LabelledAxis>& axes, Put put) {
     if (!holds(form_.level, layout.path)) return;
     layout.single = in_single_precision(form_.level, layout.path);
@@ -99,14 +107,15 @@ class LogTable {
     layout.labels = {form_.labels};
     for (const LabelledAxis& axis : axes) layout.labels.push_back(axis.labels);
     if (form_.packed || layout.meaning.storage == Storage::packed) {
-      pack<T>(layout);
+      pack(layout);
       layout.chunk_rows = std::min(layout.chunk_rows, form_.chunk_rows);
     } else {
       layout.chunk_rows = form_.chunk_rows;
     }
-    const auto series = std::make_shared<Series<T>>(std::move(layout));
+    const auto series = std::make_shared<Series>(std::move(layout));
     series_.push_back(series);
-    appenders_.push_back([series, put](const Source& source) { put(*series, source); });
+    appenders_.push_back(
+        [series, put = std::move(put)](const Source& source) { put(*series, source); });
   }
 
   Form form_;

@@ -86,7 +86,7 @@ struct LogWriter::Contents {
     if (torque.allFinite()) {
       activations.solve(model, record.after.observation.kin, torque, muscles);
     } else {
-      muscles.activation.setConstant(static_cast<Eigen::Index>(model.muscles.size()), NAN);
+      muscles.activation.setConstant(model.muscle_count(), NAN);
       muscles.residual.setConstant(model.nv(), NAN);
     }
   }
@@ -178,7 +178,7 @@ struct LogWriter::Contents {
   LogTable<BearingContact> contacts;
   LogTable<FrameRow> rows;
   bool with_rows;     // the log has that table
-  SeriesList series;  // of all tables
+  SeriesList series;  // series of all tables
   RunningMeans means;
   MomentMeans moments;
   Worst worst;
@@ -190,13 +190,13 @@ struct LogWriter::Contents {
   std::map<std::string, std::string> changed;  // attributes of the root, for the next save
   OutputFile& output;
   fs::path part, next;
-  bool ahead = false;      // FILE.part.next has all of FILE.part, and more
-  std::string lost;        // why rows are, that FILE.part does not have and that wait no more
-  bool any = false;        // FILE.part is this run's
-  std::int64_t spare = 0;  // steps of what FILE.part was before
-  double wall_time = 0;    // of the last step, s
-  bool clamped = false;    // the head was, in the last step
-  double next_save = 0;    // wall time, s: the first step is saved at once
+  bool ahead = false;  // FILE.part.next has all of FILE.part, and more
+  std::string lost;    // why rows are, that FILE.part does not have and that wait no more
+  bool any = false;    // FILE.part is this run's
+  std::int64_t earlier_steps = 0;  // steps of what FILE.part was before
+  double wall_time = 0;            // wall time of the last step, s
+  bool clamped = false;            // the head was, in the last step
+  double next_save = 0;            // wall time, s: the first step is saved at once
 };
 
 std::int64_t frame_stride(const TimeSettings& time) {
@@ -215,7 +215,7 @@ LogWriter::LogWriter(const fs::path& file, bool replace, const LogHeader& header
   label_series(contents_->series, h5);
   h5.save(contents_->next);
   contents_->ahead = true;
-  contents_->spare = steps.value_or(0);
+  contents_->earlier_steps = steps.value_or(0);
 }
 
 LogWriter::~LogWriter() {
@@ -246,7 +246,7 @@ void LogWriter::write(const StepRecord& record, const Simulation& sim, double wa
   // The step that begins at a frame counts to the next one's means.
   c.means.take(record, rows);
   c.moments.take(c.model, c.time, record);
-  if (wall_time >= c.next_save && sim.step >= c.spare) {
+  if (wall_time >= c.next_save && sim.step >= c.earlier_steps) {
     c.save();
   } else if (frame && c.waiting_bytes() > most_waiting) {
     c.change({}, c.series);
@@ -273,9 +273,9 @@ void LogWriter::write_frame(const StepRecord& record, const ThigmotaxisRows& row
 void LogWriter::finish(const std::string& status, const Simulation& sim) {
   require_ours();
   Contents& c = *contents_;
-  if (sim.step < c.spare) {
+  if (sim.step < c.earlier_steps) {
     throw FileError(fmt::format("{}: stays as it was: run again, it came to step {} of {}: {}",
-                                c.output.earlier().string(), sim.step, c.spare, status));
+                                c.output.earlier().string(), sim.step, c.earlier_steps, status));
   }
   try {
     c.changed["status"] = status;

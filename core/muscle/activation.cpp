@@ -8,7 +8,7 @@ namespace hagfish {
 
 void ActivationSolver::solve(const Model& model, const Kinematics& kin,
                              const Eigen::VectorXd& torque, MuscleEffort& effort) {
-  const auto all = static_cast<Eigen::Index>(model.muscles.size());
+  const auto all = model.muscle_count();
   effort.activation.resize(all);
   effort.residual = torque;
   effort.residual.head<root_dofs>().setZero();

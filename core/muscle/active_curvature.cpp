@@ -8,7 +8,7 @@ namespace hagfish {
 namespace {
 
 /// One of the program's values at one station, interpolated in time, rad per body length.
-double program_value(const CurvatureProgram& program, const TablePlace& when, int row,
+double program_value(const CurvatureProgram& program, const Bracket& when, int row,
                      std::size_t station) {
   return value_at(when, [&](std::size_t k) {
     const auto j = static_cast<Eigen::Index>(station);
@@ -17,25 +17,21 @@ double program_value(const CurvatureProgram& program, const TablePlace& when, in
   });
 }
 
-/// Length of body that a hinge stands for, cm.
-double span_of(const Model& model, const Hinge& hinge) { return hinge_span(model, hinge.body); }
-
 }  // namespace
 
 void program_shape(const Model& model, const CurvatureProgram& program, double time,
                    Eigen::VectorXd& shape) {
-  const TablePlace when = place_among(program.time, time);
+  const Bracket when = bracket_of(program.time, time);
   const double length = model.length();
   shape.setZero(model.nv());
-  for (std::size_t k = 0; k < model.hinges.size(); ++k) {
+  for (int k = 0; k < model.hinge_count(); ++k) {
     const Hinge& hinge = model.hinges[k];
-    const TablePlace place =
-        place_among(program.station, static_cast<double>(hinge.body) / model.body_count());
-    // Columns are about Y, about Z, twist.
-    const int row = (static_cast<int>(hinge.axis) + 2) % 3;
+    const Bracket place =
+        bracket_of(program.station, static_cast<double>(hinge.body) / model.body_count());
+    const int row = shape_row(hinge.axis);
     const double value =
         value_at(place, [&](std::size_t j) { return program_value(program, when, row, j); });
-    shape[root_dofs + static_cast<Eigen::Index>(k)] = span_of(model, hinge) / length * value;
+    shape[root_dofs + k] = hinge_span(model, hinge.body) / length * value;
   }
 }
 
@@ -48,7 +44,7 @@ Eigen::VectorXd program_shape(const Model& model, const CurvatureProgram& progra
 void move_rest_shape(const Model& model, const Scene& scene, Phase phase, const Eigen::VectorXd& q,
                      double time, Eigen::VectorXd& rest) {
   const double h = scene.time.step;
-  const auto count = static_cast<Eigen::Index>(model.hinges.size());
+  const Eigen::Index count = model.hinge_count();
   const auto angles = q.tail(count);
   if (phase == Phase::form) {
     program_shape(model, scene.script.curvature, time + scene.time.reach(), rest);
@@ -74,7 +70,7 @@ void active_torque(const Model& model, const ActiveSettings& active, const State
   torque.saturated = -1;
   for (int k = root_dofs; k < model.nv(); ++k) {
     const Hinge& hinge = model.hinges[k - root_dofs];
-    const double stiffness = active.stiffness / span_of(model, hinge);
+    const double stiffness = active.stiffness / hinge_span(model, hinge.body);
     const double value = stiffness * (rest[k] - state.q[k + 1]) + hinge.stiffness * rest[k];
     const double expected = value - ahead * stiffness * state.qdot[k];
     if (std::abs(expected) <= capacity) {

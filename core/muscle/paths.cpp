@@ -18,7 +18,7 @@ LineEnds ends_of(const Kinematics& kin, const Muscle& muscle, const MuscleLine& 
 
 MuscleGroup muscle_group(const Model& model, int first) {
   MuscleGroup group{first, 0};
-  const int all = static_cast<int>(model.muscles.size());
+  const int all = model.muscle_count();
   while (first + group.count < all &&
          model.muscles[first + group.count].body == model.muscles[first].body) {
     ++group.count;

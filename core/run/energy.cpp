@@ -13,10 +13,6 @@ void set_energies(const Model& model, const ObservedState& now, EnergyLedger& le
   ledger.gravity = gravity_energy(model, now.observation.kin);
 }
 
-PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, int body) {
-  return {twist.col(body).head<3>(), velocity.col(body)};
-}
-
 /// What the integrator makes in this step of the translation of a body that keeps its momentum,
 /// erg: of ½ M V² and of the energy in gravity, beyond the work of what acts from outside on the
 /// centre of mass. What bears on an obstacle has its frame of reference: then it is only what will
@@ -24,12 +20,10 @@ PointMotion motion_of(const Matrix6Xd& twist, const Eigen::Matrix3Xd& velocity, 
 double made_of_translation(const StepInput& in, const StepPlace& place, const StepSolution& step,
                            const ObservedState& next, double travelled, double fallen) {
   const Model& model = in.model;
-  const double mass = mass_of(model);
+  const double mass = model.mass();
   Eigen::Vector3d force = step.tip + step.force[RowKind::obstacle].head<3>();
   for (int b = 0; b < model.body_count(); ++b) {
-    force +=
-        drag_on_body(model, place.kin, b, motion_of(step.mean_twist, step.mean_centre_velocity, b))
-            .force;
+    force += drag_on_body(model, place.kin, b, body_motion(step.mean_bodies(), b)).force;
   }
   const Eigen::Vector3d before = mean_by_mass(model, in.observation.kin.centre_velocity);
   const Eigen::Vector3d after = mean_by_mass(model, next.observation.kin.centre_velocity);
@@ -125,7 +119,7 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
                (0.5 * t * u[k] - r * step.mean_velocity[k] -
                 ring * (2 * step.mean_velocity[k] - in.state.qdot[k]));
   }
-  const StepMotion& before = place.motion;
+  const BodyVelocities before = place.motion.before();
   // The velocity v' is known to `next` at another place. Here Δv follows from x - v.
   const double whole = h / r;  // Δv over x - v
   double impulse = 0;          // (y - (t/h) u)'MΔv
@@ -134,9 +128,9 @@ void book_step(const StepInput& in, const StepPlace& place, const StepSolution& 
   double fall = 0;             // work of gravity
   double bias = 0;             // work of the inertial forces
   for (int b = 0; b < model.body_count(); ++b) {
-    const PointMotion old = motion_of(before.twist, before.centre_velocity, b);
-    const PointMotion by = motion_of(step.twist, step.centre_velocity, b);
-    const PointMotion dragged = motion_of(step.mean_twist, step.mean_centre_velocity, b);
+    const PointMotion old = body_motion(before, b);
+    const PointMotion by = body_motion(step.bodies(), b);
+    const PointMotion dragged = body_motion(step.mean_bodies(), b);
     const PointMotion change{whole * (dragged.spin - old.spin),
                              whole * (dragged.velocity - old.velocity)};
     const PointMotion mean{old.spin + 0.5 * change.spin, old.velocity + 0.5 * change.velocity};

@@ -26,6 +26,12 @@ Status tell(Outcome outcome, GuardAction action, Watch& watch, std::vector<std::
   return report(outcome, message + remedy, action, watch, warnings);
 }
 
+/// tell() where the run continues in any case.
+void warn(Outcome outcome, Watch& watch, std::vector<std::string>& warnings,
+          const std::string& what, const std::string& use, const std::string& remedy) {
+  std::ignore = tell(outcome, GuardAction::warn, watch, warnings, what, use, remedy);
+}
+
 /// Names the bodies or obstacle at the deepest overlap of a state.
 std::string deepest_overlap(const Model& model, const Observation& observation) {
   double least = 0;
@@ -195,7 +201,7 @@ Status guard_energy(const StepInput& in, double passing, ObservedState& after, E
   const double made = ledger.own_error() - ledger.lowest_error;
   ledger.lowest_error = std::min(ledger.lowest_error, ledger.own_error());
   Status status;
-  const double rounding = passing_rounding * passing * passing / (2 * mass_of(model));
+  const double rounding = passing_rounding * passing * passing / (2 * model.mass());
   if (!(made <= allowed + rounding)) {
     std::string what = fmt::format(
         "numerical errors added {:.3g} erg, over guard.energy_gain = {:g} times the body's energy "
@@ -236,13 +242,13 @@ void guard_momentum(const StepInput& in, double passing, const MomentumLedger& b
   }
   watch.made += now.integrator + now.given_back - before.integrator - before.given_back;
   // For a rigid motion |P|² <= 2 m T and |L|² <= 2 I T; a straight body has the largest I.
-  const double largest = std::sqrt(2 * mass_of(in.model) * energy.largest);
+  const double largest = std::sqrt(2 * in.model.mass() * energy.largest);
   const double allowed = std::max(momentum_gain * largest, passing_rounding * passing);
   const double arm = in.model.length() / std::sqrt(12.0);
   if (std::max(watch.made.linear.norm(), watch.made.angular.norm() / arm) > allowed) {
     const bool kept = in.scene.time.momentum == FreeMomentum::kept;
-    std::ignore = tell(
-        Outcome::momentum_gain, GuardAction::warn, watch, warnings,
+    warn(
+        Outcome::momentum_gain, watch, warnings,
         fmt::format("numerical errors pushed the free body by {:.3g} dyn s and turned it by {:.3g} "
                     "dyn cm s, over {:g} of the most that it can have",
                     watch.made.linear.norm(), watch.made.angular.norm(), momentum_gain),
@@ -279,13 +285,12 @@ void guard_cap(const Model& model, const Kinematics& kin, const Scene& scene, Ph
       for (const Row* other : against) {
         names += (names.empty() ? "" : "; ") + row_name(model, *other);
       }
-      std::ignore = tell(
-          Outcome::capped, GuardAction::warn, watch, warnings,
-          fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and is still {:.3g} "
-                      "cm/s too slow, held back most by {}",
-                      row_name(model, row), scene.controller.cap, scene.guard.capped_time,
-                      -step.excess[i], names.empty() ? "no row" : names),
-          "Paths can be used, but not forces at the cap", cure_of_cap(row, against));
+      warn(Outcome::capped, watch, warnings,
+           fmt::format("{} has been at controller.cap = {:g} dyn for {:g} s and is still {:.3g} "
+                       "cm/s too slow, held back most by {}",
+                       row_name(model, row), scene.controller.cap, scene.guard.capped_time,
+                       -step.excess[i], names.empty() ? "no row" : names),
+           "Paths can be used, but not forces at the cap", cure_of_cap(row, against));
     }
   }
 }
@@ -300,27 +305,25 @@ void guard_muscles(const Model& model, const Scene& scene, const Control& contro
         (ranges.row(0) - angles).cwiseMax(angles - ranges.row(1)).cwiseMax(0.0);
     Eigen::Index k = 0;
     if (past.maxCoeff(&k) > scene.guard.limit_violation) {
-      std::ignore =
-          tell(Outcome::overbent, GuardAction::warn, watch, warnings,
-               fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s, past its "
-                           "limits of {:.3g} and {:.3g} deg",
-                           dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
-                           time + scene.time.reach(), ranges(0, k) / degree, ranges(1, k) / degree),
-               "The run can be used, except torques of muscles that work against a limit",
-               "try a program within the limits or a larger model.limit_scale");
+      warn(Outcome::overbent, watch, warnings,
+           fmt::format("the curvature program bends {} to {:.3g} deg at {:.2f} s, past its "
+                       "limits of {:.3g} and {:.3g} deg",
+                       dof_name(model, static_cast<int>(k) + root_dofs), angles[k] / degree,
+                       time + scene.time.reach(), ranges(0, k) / degree, ranges(1, k) / degree),
+           "The run can be used, except torques of muscles that work against a limit",
+           "try a program within the limits or a larger model.limit_scale");
     }
   }
   const int saturated =
       control.active.saturated >= 0 ? control.active.saturated : control.torque.saturated;
   if (saturated >= 0 && !watch.has_warned(Outcome::saturated)) {
-    std::ignore =
-        tell(Outcome::saturated, GuardAction::warn, watch, warnings,
-             fmt::format("{} needs more torque than active.capacity = {:g} dyn cm at {:.2f} s",
-                         dof_name(model, saturated), scene.active.capacity, time),
-             "The run can be used, as one of an animal too weak for this movement",
-             control.active.saturated >= 0
-                 ? "try a slower program, a softer body or more capacity"
-                 : "try a law that asks for less, or active.bounds_laws = false");
+    warn(Outcome::saturated, watch, warnings,
+         fmt::format("{} needs more torque than active.capacity = {:g} dyn cm at {:.2f} s",
+                     dof_name(model, saturated), scene.active.capacity, time),
+         "The run can be used, as one of an animal too weak for this movement",
+         control.active.saturated >= 0
+             ? "try a slower program, a softer body or more capacity"
+             : "try a law that asks for less, or active.bounds_laws = false");
   }
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <bitset>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,9 @@ struct CapWatch {
 
 /// Memory of a run's guards.
 struct Watch {
-  std::bitset<outcome_count> warned;  ///< warnings given: each cause once a run
-  std::vector<CapWatch> capped;       ///< the thigmotaxis rows at their caps, by id
-  Momentum made;                      ///< gain not given back since the head was last held
+  std::bitset<outcome_names.size()> warned;  ///< warnings given: each cause once a run
+  std::vector<CapWatch> capped;              ///< the thigmotaxis rows at their caps, by id
+  Momentum made;                             ///< gain not given back since the head was last held
 
   bool has_warned(Outcome of) const { return warned.test(static_cast<std::size_t>(of)); }
 };

@@ -31,11 +31,10 @@ Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolut
   const Model& model = in.model;
   const double h = in.scene.time.step;
   const Momentum drag = sum_over_bodies(model, kin, centre, [&](int b) {
-    return drag_on_body(model, kin, b,
-                        {step.mean_twist.col(b).head<3>(), step.mean_centre_velocity.col(b)});
+    return drag_on_body(model, kin, b, body_motion(step.mean_bodies(), b));
   });
   Momentum outside;
-  outside.linear = mass_of(model) * model.gravity + step.tip;
+  outside.linear = model.mass() * model.gravity + step.tip;
   outside.angular = (kin.centre.col(in.control.tip.on(model)) - centre).cross(step.tip);
   for (const RowKind kind : row_kinds) {
     if (!from_outside(kind)) continue;
@@ -51,13 +50,13 @@ Impulses impulses_of(const StepInput& in, const Kinematics& kin, const StepSolut
 Momentum gained(const StepInput& in, const StepPlace& place, const StepSolution& step,
                 const Eigen::Vector3d& centre) {
   const double h = in.scene.time.step;
-  const StepMotion& before = place.motion;
+  const BodyVelocities mean = step.mean_bodies(), before = place.motion.before();
   const double whole = h / in.scene.time.reach();  // v' - v over its part in the mean velocity
   return sum_over_bodies(in.model, place.kin, centre, [&](int b) {
     const auto [angular, linear] =
         body_momentum(in.model, place.kin, b,
-                      {whole * (step.mean_twist.col(b) - before.twist.col(b)).head<3>(),
-                       whole * (step.mean_centre_velocity.col(b) - before.centre_velocity.col(b))});
+                      {whole * (mean.twist.col(b) - before.twist.col(b)).head<3>(),
+                       whole * (mean.centre.col(b) - before.centre.col(b))});
     return CentreWrench{angular + h * step.system.bias.col(b).head<3>(),
                         linear + h * step.system.bias.col(b).tail<3>()};
   });
@@ -95,7 +94,7 @@ void give(const Model& model, double kinetic, const Momentum& now, const Momentu
   Kinematics& kin = next.observation.kin;
   const Eigen::Vector3d centre = centre_of_mass(model, kin);
   const auto inertia = locked_inertia(model, kin, centre).llt();
-  const double mass = mass_of(model);
+  const double mass = model.mass();
   const Eigen::Vector3d old_turn = inertia.solve(now.angular);
   Eigen::Vector3d turn = inertia.solve(wanted.angular);
   const double whole = inner_kinetic_energy(model, kin);
@@ -136,20 +135,14 @@ Eigen::Vector3d moment_of_root(const Eigen::VectorXd& force, const Kinematics& k
   return kin.rotation[0] * force.segment<3>(3) + (kin.origin.col(0) - centre).cross(sum);
 }
 
-double mass_of(const Model& model) {
-  double mass = 0;
-  for (const Body& body : model.bodies) mass += body.mass;
-  return mass;
-}
-
 Momentum momentum_of(const Model& model, const Kinematics& kin) {
   return sum_over_bodies(model, kin, centre_of_mass(model, kin), [&](int b) {
-    return body_momentum(model, kin, b, {kin.twist.col(b).head<3>(), kin.centre_velocity.col(b)});
+    return body_momentum(model, kin, b, body_motion(kin.velocities(), b));
   });
 }
 
 double passing_momentum(const StepInput& in, const StepSolution& step) {
-  double force = mass_of(in.model) * in.model.gravity.norm() + step.tip.norm();
+  double force = in.model.mass() * in.model.gravity.norm() + step.tip.norm();
   for (const RowKind kind : row_kinds) {
     if (from_outside(kind)) force += step.force[kind].head<3>().norm();
   }
@@ -177,7 +170,7 @@ Eigen::Vector3d centre_after(const StepInput& in, const StepPlace& place, const 
     momentum += model.bodies[b].mass * (step.centre_velocity.col(b) - old.col(b)) +
                 in.scene.time.reach() * step.system.bias.col(b).tail<3>();
   }
-  return centre_of_mass(model, in.observation.kin) + travelled / mass_of(model) * momentum;
+  return centre_of_mass(model, in.observation.kin) + travelled / model.mass() * momentum;
 }
 
 void book_momentum(const StepInput& in, const StepPlace& place, const StepSolution& step,
@@ -200,7 +193,7 @@ void book_momentum(const StepInput& in, const StepPlace& place, const StepSoluti
     energy.integrator_momentum += kinetic - energy.kinetic;
     const Eigen::Vector3d given = ledger.momentum.linear - before.linear;
     energy.integrator_translation +=
-        0.5 * given.dot(ledger.momentum.linear + before.linear) / mass_of(model);
+        0.5 * given.dot(ledger.momentum.linear + before.linear) / model.mass();
     energy.kinetic = kinetic;
   }
 }

@@ -33,9 +33,6 @@ struct Momentum {
 Eigen::Vector3d moment_of_root(const Eigen::VectorXd& force, const Kinematics& kin,
                                const Eigen::Vector3d& centre);
 
-/// Total mass of all bodies, g.
-double mass_of(const Model& model);
-
 /// Momentum of all bodies at the velocities of `kin`.
 Momentum momentum_of(const Model& model, const Kinematics& kin);
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/control/controller.hpp"
@@ -15,14 +16,8 @@
 namespace hagfish {
 
 /// Storage of take_step: copies of what a step changes before it is certain to be taken.
-struct BeforeStep {
-  ControllerState controller;
-  WarmStart warm;
-  EnergyLedger ledger;
-  MomentumLedger momentum;
-  Watch watch;
-  Candidates candidates;  ///< candidates of the search
-};
+using BeforeStep =
+    std::tuple<ControllerState, WarmStart, EnergyLedger, MomentumLedger, Watch, Candidates>;
 
 /// Set while a step is under way, so that a second step of the same simulation is refused. A copy
 /// has no step under way.

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/chain/bending.hpp"
-#include "core/scene/interpolation.hpp"
+#include "core/scene/specimen.hpp"
 
 namespace hagfish {
 namespace {
@@ -16,18 +16,7 @@ constexpr int places = 400;
 /// Largest shift of curvature from one quarter to the next, of the length of the body.
 constexpr double largest_shift = 0.1;
 
-/// A function on the body by its values at rising places `s`; linear between, constant outside.
-struct Profile {
-  std::vector<double> s;
-  Eigen::VectorXd value;
-
-  double operator()(double at) const {
-    return value_at(place_among(s, at),
-                    [this](std::size_t k) { return value[static_cast<Eigen::Index>(k)]; });
-  }
-};
-
-/// Of the bending joints, from the head, cm of arc.
+/// Places of the bending joints, from the head, cm of arc.
 std::vector<double> joint_places(const Model& model) {
   std::vector<double> found;
   double arc = 0;
@@ -38,24 +27,26 @@ std::vector<double> joint_places(const Model& model) {
   return found;
 }
 
-/// Radii of body up to each place: the integral of ds / r from the head, on a fine grid.
-Profile radii_along(const Model& model) {
-  Profile radius;
-  double arc = 0;
-  radius.value.resize(model.body_count());
-  for (int b = 0; b < model.body_count(); ++b) {
-    radius.s.push_back(arc + 0.5 * model.bodies[b].length);
-    radius.value[b] = model.bodies[b].radius;
-    arc += model.bodies[b].length;
+/// Radii of body up to places on a fine grid: the integral of ds / r from the head.
+struct Radii {
+  std::vector<double> arc{0}, sum{0};  ///< cm, 1
+};
+
+Radii radii_along(const Model& model) {
+  std::vector<double> middle, radius;
+  double length = 0;
+  for (const Body& body : model.bodies) {
+    middle.push_back(length + 0.5 * body.length);
+    radius.push_back(body.radius);
+    length += body.length;
   }
-  Profile sum;
-  sum.value.setZero(places + 1);
-  const double ds = arc / places;
-  for (int i = 0; i <= places; ++i) {
-    sum.s.push_back(i * ds);
-    if (i > 0) sum.value[i] = sum.value[i - 1] + ds / radius((i - 0.5) * ds);
+  Radii radii;
+  const double ds = length / places;
+  for (int i = 1; i <= places; ++i) {
+    radii.arc.push_back(i * ds);
+    radii.sum.push_back(radii.sum.back() + ds / profile(middle, radius, (i - 0.5) * ds));
   }
-  return sum;
+  return radii;
 }
 
 double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
@@ -69,11 +60,13 @@ double correlation(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
 std::pair<double, double> best_shift(const Model& model, const Eigen::VectorXd& before,
                                      const Eigen::VectorXd& now) {
   const double length = model.length();
-  Profile of{joint_places(model), before};
+  const std::vector<double> joints = joint_places(model);
   const Eigen::VectorXd grid = Eigen::VectorXd::LinSpaced(places, 0, length);
-  const Eigen::VectorXd old = grid.unaryExpr([&of](double s) { return of(s); });
-  of.value = now;
-  const Eigen::VectorXd shown = grid.unaryExpr([&of](double s) { return of(s); });
+  const auto on_grid = [&](const Eigen::VectorXd& curvature) -> Eigen::VectorXd {
+    const std::vector<double> values(curvature.begin(), curvature.end());
+    return grid.unaryExpr([&](double s) { return profile(joints, values, s); });
+  };
+  const Eigen::VectorXd old = on_grid(before), shown = on_grid(now);
   const int most = static_cast<int>(largest_shift * places);
   Eigen::VectorXd likeness(2 * most + 1);
   for (int k = -most; k <= most; ++k) {
@@ -127,11 +120,10 @@ Slide slide_through(const Model& model, std::span<const SlideMoment> moments, Bo
   slide.from = lead(first);
   slide.leading_way = sense * (lead(first) - lead(last));
   slide.trailing_way = sense * (trail(first) - trail(last));
-  const Profile radii = radii_along(model);
+  const auto [arc, sum] = radii_along(model);
+  const auto radii = [&](double at) { return profile(arc, sum, at); };
   const double kept = radii(lead(last)) + radii(trail(first)) - radii(lead(first));
-  const std::vector<double> sums(radii.value.begin(), radii.value.end());
-  const Profile place{sums, Eigen::VectorXd::Map(radii.s.data(), std::ssize(radii.s))};
-  slide.taper_asks = sense * (trail(first) - place(kept));
+  slide.taper_asks = sense * (trail(first) - profile(sum, arc, kept));
   if (!(slide.leading_way >= least_way * model.length())) return slide;
   slide.travel = 0;
   slide.correlation = 1;

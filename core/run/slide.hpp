@@ -4,7 +4,7 @@
 // knot that only grows takes up body alone, and its leading end moves all the same.
 #pragma once
 
-#include <limits>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,7 +27,7 @@ Eigen::VectorXd curvature_along(const Model& model, const Eigen::VectorXd& q);
 
 /// Ways are towards the end of the body to which the knot slides, cm of arc.
 struct Slide {
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double none = NAN;
   double from = none;          ///< place of the knot's leading end as the slide begins, cm of arc
   double leading_way = none;   ///< way of the end that goes first: headward, the head end
   double trailing_way = none;  ///< way of its other end

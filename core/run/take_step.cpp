@@ -211,24 +211,10 @@ class OneStepAtATime {
   StepUnderWay& under_way_;
 };
 
-void keep(Simulation& sim) {
-  BeforeStep& before = sim.before;
-  before.controller = sim.controller;
-  before.warm = sim.solver.warm;
-  before.ledger = sim.ledger;
-  before.momentum = sim.momentum;
-  before.watch = sim.watch;
-  before.candidates = sim.search.candidates;
-}
-
-void put_back(Simulation& sim) {
-  const BeforeStep& before = sim.before;
-  sim.controller = before.controller;
-  sim.solver.warm = before.warm;
-  sim.ledger = before.ledger;
-  sim.momentum = before.momentum;
-  sim.watch = before.watch;
-  sim.search.candidates = before.candidates;
+/// What a step changes before it is certain to be taken, as in BeforeStep.
+auto changed_by_step(Simulation& sim) {
+  return std::tie(sim.controller, sim.solver.warm, sim.ledger, sim.momentum, sim.watch,
+                  sim.search.candidates);
 }
 
 }  // namespace
@@ -238,7 +224,7 @@ void take_step(const Model& model, const Scene& scene, Simulation& sim, StepReco
   const OneStepAtATime only(sim.under_way);
   const Attempt step{
       {model, scene, sim.now.state, sim.now.observation, record.control}, sim, record};
-  keep(sim);
+  sim.before = changed_by_step(sim);
   try {
     decide_control(step);
     solve_along_path(step);
@@ -250,7 +236,7 @@ void take_step(const Model& model, const Scene& scene, Simulation& sim, StepReco
     book(step, travelled);
   } catch (...) {
     record.controller = sim.controller;
-    put_back(sim);
+    changed_by_step(sim) = sim.before;
     throw;
   }
   record.controller = sim.controller;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,6 +86,10 @@ struct ContactSettings {
   /// Parts of the body whose nearest ends are closer than this along it never touch: neighbours
   /// always overlap, cm of arc (7 bodies of 100 between them).
   double least_arc = 2.968;
+
+  /// Whether parts with this much body between them, cm of arc, may touch. The slack keeps rounding
+  /// from putting equal arcs on different sides of the bound.
+  bool may_touch(double arc_between) const { return arc_between >= least_arc * (1 - 1e-9); }
 };
 
 /// Flesh that yields where it is pressed (addition): skins overlap, and points along the strands
@@ -139,8 +142,8 @@ struct ScriptSettings {
   double spring = 0;                ///< position script: dyn / cm, taken implicitly
   double damper = 0;                ///< position script: dyn s / cm, taken implicitly
   double largest_force = 0;         ///< position script: the spring-damper saturates here, dyn
-  /// Standard deviation of the normal noise on each coordinate of each knot, cm or dyn, or on each
-  /// value of a curvature program, rad per body length: no animal does the same thing twice.
+  /// Standard deviation of the normal noise on each coordinate of each waypoint, cm or dyn, or on
+  /// each value of a curvature program, rad per body length: no animal does the same thing twice.
   double noise = 0;
   unsigned noise_seed = 1;  ///< number of the draw
 };

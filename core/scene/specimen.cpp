@@ -9,7 +9,7 @@ namespace hagfish {
 
 double profile(const std::vector<double>& station, const std::vector<double>& value,
                double fraction) {
-  return value_at(place_among(station, fraction), [&](std::size_t k) { return value[k]; });
+  return value_at(bracket_of(station, fraction), [&](std::size_t k) { return value[k]; });
 }
 
 double mean_diameter(const Specimen& specimen) {

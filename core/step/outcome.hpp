@@ -1,6 +1,8 @@
 // How a step or a run ended, by name.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -27,9 +29,16 @@ enum class Outcome : std::uint8_t {
   unsettled,       ///< the passes of a step did not converge
   momentum_gain,   ///< the integrator pushed or turned a free body more than permitted
 };
-inline constexpr int outcome_count = 18;
-/// "ok", "non-finite", "energy gain", ...
-const char* outcome_name(Outcome outcome);
+/// Names in the order of the enumeration.
+inline constexpr std::array outcome_names = {
+    "ok",         "non-finite",     "penetration", "limits",    "speed",     "energy gain",
+    "infeasible", "solver failed",  "never tied",  "knot lost", "capped",    "tunnelled",
+    "stopped",    "not applicable", "overbent",    "saturated", "unsettled", "momentum gain"};
+static_assert(outcome_names.size() == static_cast<std::size_t>(Outcome::momentum_gain) + 1);
+
+inline const char* outcome_name(Outcome outcome) {
+  return outcome_names[static_cast<std::size_t>(outcome)];
+}
 
 /// How a step or a run ended.
 struct [[nodiscard]] Status {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <limits>
 #include <span>
 #include <stdexcept>
 
@@ -11,23 +9,13 @@
 #include "core/step/rows/row_selection.hpp"
 
 namespace hagfish {
+
 Rounds::Rounds(std::string back_end)
     : back_end_(std::move(back_end)), solver_(make_box_qp_solver(back_end_)) {}
 
 Rounds::Rounds(const Rounds& other)
     : back_end_(other.back_end_), solver_(make_box_qp_solver(back_end_)) {
   stop_when(other.stop_);
-}
-
-Rounds& Rounds::operator=(const Rounds& other) {
-  if (this != &other) {
-    if (back_end_ != other.back_end_) {
-      back_end_ = other.back_end_;
-      solver_ = make_box_qp_solver(back_end_);
-    }
-    stop_when(other.stop_);
-  }
-  return *this;
 }
 
 void Rounds::stop_when(std::function<bool()> asked) {

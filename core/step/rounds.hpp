@@ -38,7 +38,7 @@ class Rounds {
   /// `back_end`: one of box_qp_solver_names(). Throws std::invalid_argument otherwise.
   explicit Rounds(std::string back_end);
   Rounds(const Rounds& other);
-  Rounds& operator=(const Rounds& other);
+  Rounds& operator=(const Rounds& other) { return *this = Rounds(other); }
   Rounds(Rounds&&) = default;
   Rounds& operator=(Rounds&&) = default;
   ~Rounds() = default;

@@ -5,7 +5,6 @@
 #include <functional>
 #include <string>
 
-#include "core/step/euler_rule.hpp"
 #include "core/step/midpoint/midpoint_rule.hpp"
 #include "core/step/step_report.hpp"
 

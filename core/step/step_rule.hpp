@@ -1,4 +1,4 @@
-// A time rule: the place where the equations of a step hold, and the velocity with which it ends.
+// Time rules: the place where the equations of a step hold, and the velocity with which it ends.
 #pragma once
 
 #include "core/step/rounds.hpp"
@@ -19,12 +19,35 @@ class StepRule {
   virtual Status resume(const StepInput& in, Rounds& rounds, WarmStart& warm,
                         StepSolution& step) = 0;
 
-  /// Ends a solved step: step.mean_velocity and step.lambda. Notes in `warm`
-  /// what the next step starts with.
+  /// Ends a solved step: step.mean_velocity and step.lambda. Notes in `warm` what the next step
+  /// starts with.
   virtual void end(const StepInput& in, WarmStart& warm, StepSolution& step) = 0;
 
   /// The place where the equations of the step hold. Call it after begin.
   virtual StepPlace place(const StepInput& in) const = 0;
+};
+
+/// The paper's rule: the equations hold at the start of a step, and the step moves by the velocity
+/// that it ends with.
+class EulerRule : public StepRule {
+ public:
+  Status begin(const StepInput& in, Rounds& rounds, WarmStart& warm, StepSolution& step) override {
+    Status status = rounds.begin(in, place(in), warm, step);
+    step.next = step.qdot;
+    return status;
+  }
+  Status resume(const StepInput& in, Rounds& rounds, WarmStart& warm, StepSolution& step) override {
+    Status status = rounds.resume(in, place(in), warm, step);
+    step.next = step.qdot;
+    return status;
+  }
+  void end(const StepInput& /*in*/, WarmStart& /*warm*/, StepSolution& step) override {
+    step.lambda = step.multipliers;
+    step.mean_velocity = step.qdot;
+    step.mean_twist = step.twist;
+    step.mean_centre_velocity = step.centre_velocity;
+  }
+  StepPlace place(const StepInput& in) const override { return start_of(in); }
 };
 
 }  // namespace hagfish

@@ -50,6 +50,8 @@ struct StepSolution {
   Matrix6Xd twist;                        ///< bodies' twists at qdot, 6 x N
   Eigen::Matrix3Xd centre_velocity;       ///< velocities of their centres at qdot, 3 x N, cm/s
   BodyVelocities bodies() const { return {twist, centre_velocity}; }  ///< motion at qdot
+  /// Motion at mean_velocity.
+  BodyVelocities mean_bodies() const { return {mean_twist, mean_centre_velocity}; }
   ConstraintForces force;
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< tip force as applied, dyn, world
   /// Total torque of the muscles as applied, dyn cm, nv; 0 at the root.

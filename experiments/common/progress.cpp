@@ -1,5 +1,5 @@
 #include "experiments/common/progress.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "experiments/common/terminal.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "experiments/common/csv.hpp"
 #include "experiments/design/living_body.hpp"
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/knot/closures.hpp"
 #include "core/knot/colouring.hpp"
+#include "core/knot/diagram.hpp"
 
 namespace hagfish {
 namespace {

@@ -30,7 +30,7 @@ std::vector<double> even_places(int count) {
 
 Eigen::VectorXd values_at(const CurvatureProgram& program, double time) {
   const auto n = static_cast<Eigen::Index>(program.station.size());
-  const TablePlace at = place_among(program.time, time);
+  const Bracket at = bracket_of(program.time, time);
   Eigen::VectorXd values(2 * n);
   for (Eigen::Index j = 0; j < n; ++j) {
     for (Eigen::Index axis = 0; axis < 2; ++axis) {

@@ -115,7 +115,7 @@ Criterion eq6_criterion(const ExpectSettings& expect, std::int64_t met, std::int
 }
 
 Passed::Passed(const Model& model, double h)
-    : mass_(mass_of(model)),
+    : mass_(model.mass()),
       weight_(mass_ * model.gravity.norm()),
       arm_(model.length() / std::sqrt(12.0)),
       h_(h) {}

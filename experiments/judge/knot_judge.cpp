@@ -7,7 +7,7 @@
 
 #include "core/chain/skin_fold.hpp"
 #include "core/input/run_time_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "core/knot/writhe.hpp"
 
 namespace hagfish {

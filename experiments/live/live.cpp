@@ -11,8 +11,8 @@
 
 #include "core/input/builtin_files.hpp"
 #include "core/input/input_text.hpp"
-#include "core/input/toml_fault.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/input/scene_text.hpp"
+#include "core/knot/knot.hpp"
 #include "core/scene/phase.hpp"
 #include "experiments/live/live_run.hpp"
 

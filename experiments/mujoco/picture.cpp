@@ -131,9 +131,8 @@ void paint(const Model& model, const Specimen& specimen, const std::vector<doubl
   for (int k = 0; k < skin.rings(); ++k) {
     const Ring ring = ring_at(k, model.body_count() - 1);
     const double place = (ring.segment + ring.t + 0.5) * own;
-    const double here = value_at(place_among(arc, place), [&](std::size_t j) {
-      return value[static_cast<Eigen::Index>(j)];
-    });
+    const double here = value_at(
+        bracket_of(arc, place), [&](std::size_t j) { return value[static_cast<Eigen::Index>(j)]; });
     skin.colour[k] =
         shaded(colour_of(scale > 0 ? here / scale : 0), is_measured(specimen, length, place));
   }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/log/coordinate_names.hpp"
 #include "core/log/ledger_columns.hpp"
 #include "core/log/means/moment_means.hpp"
 #include "experiments/python/begun.hpp"

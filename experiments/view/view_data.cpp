@@ -7,7 +7,7 @@
 
 #include "core/control/controller.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "experiments/export/body_quantity.hpp"
 #include "experiments/export/frame_contacts.hpp"
 #include "experiments/judge/replay.hpp"

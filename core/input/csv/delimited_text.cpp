@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
+#include <cmath>
 
 #include "core/input/input_text.hpp"
 
@@ -52,7 +52,8 @@ DelimitedText::DelimitedText(std::string text) : text_(narrow(std::move(text))) 
     for (std::size_t k = 0; k <= row.size(); ++k) {
       if (k < row.size() && row[k] == '"') quoted = !quoted;
       if (k < row.size() && (row[k] != separator_ || quoted)) continue;
-      cell_.push_back(trimmed(row.substr(from, k - from)));
+      const std::string_view cell = trimmed(row.substr(from, k - from));
+      cell_.push_back({static_cast<std::size_t>(cell.data() - all.data()), cell.size()});
       from = k + 1;
     }
   }
@@ -63,7 +64,9 @@ std::size_t DelimitedText::cells(std::size_t row) const {
 }
 
 std::string_view DelimitedText::cell(std::size_t row, std::size_t column) const {
-  return column < cells(row) ? cell_[first_[row] + column] : std::string_view();
+  if (column >= cells(row)) return {};
+  const auto [begin, size] = cell_[first_[row] + column];
+  return std::string_view(text_).substr(begin, size);
 }
 
 const char* DelimitedText::separator_name() const {
@@ -75,7 +78,7 @@ std::optional<double> DelimitedText::number(std::size_t row, std::size_t column)
   std::string word;
   for (const char c : cell) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const char* missing : {"", "-", "nan", "na", "n/a", "null", "none"}) {
-    if (word == missing) return std::numeric_limits<double>::quiet_NaN();
+    if (word == missing) return NAN;
   }
   if (separator_ != ',' && word.find('.') == word.npos) {
     if (const std::size_t comma = word.find(','); comma != word.npos) word[comma] = '.';

@@ -31,9 +31,12 @@ class DelimitedText {
   std::optional<double> number(std::size_t row, std::size_t column) const;
 
  private:
+  struct Cell {
+    std::size_t begin = 0, size = 0;  ///< in text_: a view would not outlive a move of the table
+  };
   std::string text_;
   char separator_ = ',';
-  std::vector<std::string_view> cell_;
+  std::vector<Cell> cell_;
   std::vector<std::size_t> first_, line_;  // first cell and line of each row
 };
 

@@ -7,7 +7,7 @@
 namespace hagfish {
 namespace {
 
-/// Of a text file, bytes. A scene with the whole state of 400 bodies has some 30,000.
+/// Bytes of a text file at most. A scene with the whole state of 400 bodies has some 30,000.
 constexpr std::size_t largest_text = std::size_t{1} << 20;
 
 }  // namespace

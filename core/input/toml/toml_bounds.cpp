@@ -8,7 +8,7 @@
 namespace hagfish {
 namespace {
 
-/// Where what begins with the quote at `at` ends: a string, of one line or of several.
+/// The end of the string, of one line or of several, that begins with the quote at `at`.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string three(3, quote);

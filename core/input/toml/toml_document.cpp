@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "core/input/input_error.hpp"
-#include "core/input/toml_fault.hpp"
+#include "core/input/scene_text.hpp"
 
 namespace hagfish {
 namespace {

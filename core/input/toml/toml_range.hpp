@@ -2,7 +2,7 @@
 #pragma once
 
 #include <charconv>
-#include <limits>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,8 +27,8 @@ inline constexpr Unit spring{"dyn/cm", 1e3}, damper{"dyn s/cm", 1e3}, drag{"g/(s
 
 /// The interval from `low` to `high`, with or without its ends. Infinite ends bound nothing.
 struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
+  double low = -INFINITY;
+  double high = INFINITY;
   bool open = false;     ///< the ends are excluded
   std::string rule;      ///< what to tell the user: "must be positive"
   Unit unit = cgs::one;  ///< unit of the number in memory
@@ -41,17 +41,14 @@ template <class E>
 using Choices = std::vector<std::pair<std::string_view, E>>;
 
 /// Every finite number.
-inline Range any_number(Unit unit = cgs::one) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  return {-none, none, false, "", unit};
-}
+inline Range any_number(Unit unit = cgs::one) { return {-INFINITY, INFINITY, false, "", unit}; }
 
 inline Range positive(Unit unit = cgs::one) {
-  return {0, std::numeric_limits<double>::infinity(), true, "must be positive", unit};
+  return {0, INFINITY, true, "must be positive", unit};
 }
 
 inline Range not_negative(Unit unit = cgs::one) {
-  return {0, std::numeric_limits<double>::infinity(), false, "must not be negative", unit};
+  return {0, INFINITY, false, "must not be negative", unit};
 }
 
 /// Shortest text that reads back as the same double.
@@ -68,8 +65,7 @@ inline Range within(double low, double high, Unit unit = cgs::one) {
 
 /// `low` or more.
 inline Range at_least(double low, Unit unit = cgs::one) {
-  return {low, std::numeric_limits<double>::infinity(), false, "must be at least " + shortest(low),
-          unit};
+  return {low, INFINITY, false, "must be at least " + shortest(low), unit};
 }
 
 /// Between `low` and `high`, both excluded.

@@ -162,7 +162,8 @@ struct TableReader::Impl {
     return numbers;
   }
 
-  /// As an override has it; a string in quotes only where it is `inside` an array.
+  /// The text of an override with this value; a string in quotes only where it is `inside` an
+  /// array.
   std::string override_text(const Entry& entry, const toml::value& value, bool inside) const {
     if (value.is_string()) return inside ? toml::format(value) : value.as_string().str;
     if (value.is_boolean()) return value.as_boolean() ? "true" : "false";

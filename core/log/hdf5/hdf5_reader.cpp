@@ -87,7 +87,7 @@ bool exceeds_file(const std::vector<hsize_t>& extent, std::size_t size, hsize_t 
   return bytes > std::max(small_dataset, densest_packing * file_size);
 }
 
-/// Of a dataset that does not exceed its file.
+/// Number of elements of a dataset that does not exceed its file.
 hsize_t size_of(const std::vector<hsize_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }

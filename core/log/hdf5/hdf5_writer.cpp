@@ -2,7 +2,6 @@
 
 #include <hdf5_hl.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -87,29 +86,29 @@ void Hdf5Writer::root_attribute(const std::string& name, int value) {
 
 void Hdf5Writer::numbers(const std::string& path, const Eigen::VectorXd& values,
                          const Meaning& meaning) {
+  plain(path, values);
   guarded(name_, "write " + path, [&] {
-    const hsize_t size = values.size();
-    H5::DataSet set = h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size));
-    set.write(values.data(), H5::PredType::NATIVE_DOUBLE);
+    H5::DataSet set = h5_.openDataSet(path);
     describe(set, meaning);
   });
 }
 
 void Hdf5Writer::plain(const std::string& path, const Eigen::VectorXd& values) {
-  guarded(name_, "write " + path, [&] {
-    const hsize_t size = values.size();
-    h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size))
-        .write(values.data(), H5::PredType::NATIVE_DOUBLE);
-  });
+  write_doubles(path, {static_cast<hsize_t>(values.size())}, values.data());
 }
 
 void Hdf5Writer::plain(const std::string& path, const Eigen::MatrixXd& values) {
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_rows = values;
+  write_doubles(path, {static_cast<hsize_t>(values.rows()), static_cast<hsize_t>(values.cols())},
+                by_rows.data());
+}
+
+void Hdf5Writer::write_doubles(const std::string& path, const std::vector<hsize_t>& shape,
+                               const double* values) {
   guarded(name_, "write " + path, [&] {
-    const std::array<hsize_t, 2> shape{static_cast<hsize_t>(values.rows()),
-                                       static_cast<hsize_t>(values.cols())};
-    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_rows = values;
-    h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(2, shape.data()))
-        .write(by_rows.data(), H5::PredType::NATIVE_DOUBLE);
+    const H5::DataSpace space(static_cast<int>(shape.size()), shape.data());
+    h5_.createDataSet(path, H5::PredType::NATIVE_DOUBLE, space)
+        .write(values, H5::PredType::NATIVE_DOUBLE);
   });
 }
 

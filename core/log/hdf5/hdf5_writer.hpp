@@ -105,6 +105,8 @@ class Hdf5Writer {
  private:
   /// The dataset, opened unless it is open.
   H5::DataSet& dataset(const std::string& path);
+  void write_doubles(const std::string& path, const std::vector<hsize_t>& shape,
+                     const double* values);
 
   std::string name_;  // name in messages
   H5::H5File h5_;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
-#include <type_traits>
+#include <utility>
 
 namespace hagfish {
 namespace {
@@ -24,24 +26,35 @@ constexpr hsize_t block_columns = 32;
 // nothing, and a run of the Table 1 scene grows to 938 frames.
 constexpr std::size_t first_rows = 1024;
 
-std::size_t size_of(const std::vector<hsize_t>& shape) {
-  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
-}
-
-template <class T>
-H5::DataType stored_type() {
-  if constexpr (std::is_same_v<T, double>) return H5::PredType::NATIVE_DOUBLE;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5::PredType::NATIVE_INT32;
-  if constexpr (std::is_same_v<T, std::int64_t>) return H5::PredType::NATIVE_INT64;
-  return H5::PredType::NATIVE_UINT8;
+/// Bytes of one row.
+std::size_t row_bytes_of(const SeriesLayout& layout) {
+  return std::accumulate(layout.row_shape.begin(), layout.row_shape.end(), layout.type.getSize(),
+                         std::multiplies<>());
 }
 
 }  // namespace
 
-AnySeries::AnySeries(SeriesLayout layout, std::size_t value_size)
-    : layout_(std::move(layout)), row_size_(size_of(layout_.row_shape)), value_size_(value_size) {}
+Series::Series(SeriesLayout layout)
+    : layout_(std::move(layout)), row_bytes_(row_bytes_of(layout_)) {}
 
-std::size_t AnySeries::room() const {
+void Series::append(const void* row, std::size_t bytes) {
+  if (bytes != row_bytes_) throw std::logic_error("log row has the wrong size");
+  if (waiting_.empty()) waiting_.reserve(first_rows * bytes);
+  const auto* const values = static_cast<const char*>(row);
+  waiting_.insert(waiting_.end(), values, values + bytes);
+  if (const double unit = layout_.resolution; unit > 0) {
+    for (char* at = waiting_.data() + waiting_.size() - bytes; bytes > 0; at += sizeof(double)) {
+      double value;
+      std::memcpy(&value, at, sizeof value);
+      value = std::round(value / unit) * unit;
+      std::memcpy(at, &value, sizeof value);
+      bytes -= sizeof value;
+    }
+  }
+  ++total_;
+}
+
+std::size_t Series::room() const {
   const hsize_t chunk = layout_.chunk_rows;
   const hsize_t begin = first_ / chunk;
   const hsize_t end = (total_ + chunk - 1) / chunk;
@@ -55,57 +68,31 @@ std::size_t AnySeries::room() const {
   return index_size + (end - begin) * (chunk * width + blocks * index_entry);
 }
 
-void AnySeries::write(Hdf5Writer& file) const {
-  if (total_ > first_) file.append(layout_, first_, total_ - first_, waiting());
+void Series::write(Hdf5Writer& file) const {
+  if (total_ > first_) file.append(layout_, first_, total_ - first_, waiting_.data());
 }
 
-void AnySeries::written() {
-  keep(0);
+void Series::written() {
+  waiting_.clear();
   first_ = total_;
 }
 
-void AnySeries::cut(hsize_t rows) {
+void Series::cut(hsize_t rows) {
   if (rows >= total_) return;
-  keep(rows - first_);
+  waiting_.resize((rows - first_) * row_bytes_);
   total_ = rows;
 }
 
-template <class T>
-void Series<T>::append(const T* row, std::size_t count) {
-  if (count != row_size()) throw std::logic_error("log row has the wrong size");
-  if (waiting_.empty()) waiting_.reserve(first_rows * row_size());
-  waiting_.insert(waiting_.end(), row, row + count);
-  if constexpr (std::is_same_v<T, double>) {
-    if (const double unit = layout().resolution; unit > 0) {
-      std::for_each(waiting_.end() - static_cast<std::ptrdiff_t>(count), waiting_.end(),
-                    [unit](double& value) { value = std::round(value / unit) * unit; });
-    }
-  }
-  count_rows(1);
-}
-
-template class Series<double>;
-template class Series<std::int32_t>;
-template class Series<std::int64_t>;
-template class Series<std::uint8_t>;
-
-template <class T>
 void pack(SeriesLayout& layout) {
   layout.meaning.storage = Storage::packed;
   layout.chunk_columns = 0;
-  layout.chunk_rows =
-      std::max<hsize_t>(1, compressed_chunk_size / (size_of(layout.row_shape) * sizeof(T)));
+  layout.chunk_rows = std::max<hsize_t>(1, compressed_chunk_size / row_bytes_of(layout));
 }
-template void pack<double>(SeriesLayout&);
-template void pack<std::int32_t>(SeriesLayout&);
-template void pack<std::int64_t>(SeriesLayout&);
-template void pack<std::uint8_t>(SeriesLayout&);
 
-template <class T>
 SeriesLayout layout_of(const std::string& path, const std::vector<hsize_t>& row_shape,
-                       const Meaning& meaning) {
-  SeriesLayout layout{path, row_shape, meaning, stored_type<T>(), 1, 0, false, 0, {}};
-  if (meaning.storage == Storage::packed) pack<T>(layout);
+                       const Meaning& meaning, const H5::DataType& type) {
+  SeriesLayout layout{path, row_shape, meaning, type, 1, 0, false, 0, {}};
+  if (meaning.storage == Storage::packed) pack(layout);
   if (meaning.storage == Storage::blocks) {
     if (row_shape.size() != 1) throw std::logic_error(path + ": blocks are of rows of one axis");
     const hsize_t columns = row_shape.back();
@@ -114,23 +101,14 @@ SeriesLayout layout_of(const std::string& path, const std::vector<hsize_t>& row_
   }
   return layout;
 }
-template SeriesLayout layout_of<double>(const std::string&, const std::vector<hsize_t>&,
-                                        const Meaning&);
-template SeriesLayout layout_of<std::int32_t>(const std::string&, const std::vector<hsize_t>&,
-                                              const Meaning&);
-template SeriesLayout layout_of<std::int64_t>(const std::string&, const std::vector<hsize_t>&,
-                                              const Meaning&);
-template SeriesLayout layout_of<std::uint8_t>(const std::string&, const std::vector<hsize_t>&,
-                                              const Meaning&);
 
-SeriesLayout layout_of_choices(const std::string& path, const std::vector<std::string>& names,
-                               const Meaning& meaning) {
+H5::DataType choice_type(const std::vector<std::string>& names) {
   H5::EnumType type(H5::PredType::NATIVE_UINT8);
   for (std::size_t k = 0; k < names.size(); ++k) {
     auto value = static_cast<std::uint8_t>(k);
     type.insert(names[k], &value);
   }
-  return {path, {}, meaning, type, 1, 0, false, 0, {}};
+  return type;
 }
 
 }  // namespace hagfish

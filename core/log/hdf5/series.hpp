@@ -11,19 +11,20 @@
 
 namespace hagfish {
 
-/// A growing dataset of whatever type. Rows wait in memory until they are written to the file.
-class AnySeries {
+/// A growing dataset. Its rows wait in memory, as HDF5 takes them, until they are written to the
+/// file.
+class Series {
  public:
-  AnySeries(SeriesLayout layout, std::size_t value_size);
-  virtual ~AnySeries() = default;
-  AnySeries(const AnySeries&) = delete;
-  AnySeries& operator=(const AnySeries&) = delete;
+  explicit Series(SeriesLayout layout);
 
   const SeriesLayout& layout() const { return layout_; }
   /// Creates the dataset in `file`, without rows.
   void create(Hdf5Writer& file) const { file.create(layout_); }
+  /// Appends one row of values of the layout's type, `bytes` in all. Doubles are rounded to
+  /// multiples of its resolution. Throws std::logic_error where the row has another size.
+  void append(const void* row, std::size_t bytes);
   /// Bytes of one row.
-  std::size_t row_bytes() const { return row_size_ * value_size_; }
+  std::size_t row_bytes() const { return row_bytes_; }
   /// Rows so far, saved or not.
   hsize_t rows() const { return total_; }
   /// Drops all but the first `rows`; those dropped must not have been written.
@@ -35,53 +36,36 @@ class AnySeries {
   /// What was written waits no more.
   void written();
   /// Bytes of what waits.
-  std::size_t waiting_bytes() const { return (total_ - first_) * row_bytes(); }
-
- protected:
-  virtual const void* waiting() const = 0;
-  virtual void keep(std::size_t rows) = 0;  ///< keeps the first rows of those that wait
-  std::size_t row_size() const { return row_size_; }
-  void count_rows(hsize_t rows) { total_ += rows; }
+  std::size_t waiting_bytes() const { return waiting_.size(); }
 
  private:
   SeriesLayout layout_;
-  std::size_t row_size_;    // values
-  std::size_t value_size_;  // bytes
-  hsize_t first_ = 0;       // rows of the file: those before what waits
+  std::size_t row_bytes_;
+  hsize_t first_ = 0;  // rows of the file: those before what waits
   hsize_t total_ = 0;
+  std::vector<char> waiting_;
 };
 
-using SeriesList = std::vector<std::shared_ptr<AnySeries>>;
+using SeriesList = std::vector<std::shared_ptr<Series>>;
 
-/// The rows of a series of numbers.
+/// The type by which HDF5 stores a T.
 template <class T>
-class Series final : public AnySeries {
- public:
-  explicit Series(SeriesLayout layout) : AnySeries(std::move(layout), sizeof(T)) {}
-  /// Appends one row; `count` must be the row's size.
-  void append(const T* row, std::size_t count);
-  void append(T value) { append(&value, 1); }
+H5::DataType stored_type() {
+  if constexpr (std::is_same_v<T, double>) return H5::PredType::NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5::PredType::NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5::PredType::NATIVE_INT64;
+}
 
- protected:
-  const void* waiting() const override { return waiting_.data(); }
-  void keep(std::size_t rows) override { waiting_.resize(rows * row_size()); }
-
- private:
-  std::vector<T> waiting_;
-};
-
-/// The layout of a series of T, whose rows have `row_shape`; with one row a chunk, where its
-/// meaning does not ask for more.
-template <class T>
+/// The layout of a series of values of `type`, whose rows have `row_shape`; with one row a chunk,
+/// where its meaning does not ask for more. Throws std::logic_error for blocks of rows of several
+/// axes.
 SeriesLayout layout_of(const std::string& path, const std::vector<hsize_t>& row_shape,
-                       const Meaning& meaning);
+                       const Meaning& meaning, const H5::DataType& type);
 
-/// Stores a series of T compressed, in chunks of a size that suits that.
-template <class T>
+/// Stores a series compressed, in chunks of a size that suits that.
 void pack(SeriesLayout& layout);
 
 /// uint8 enumeration whose values count up from 0 in the order of `names`.
-SeriesLayout layout_of_choices(const std::string& path, const std::vector<std::string>& names,
-                               const Meaning& meaning);
+H5::DataType choice_type(const std::vector<std::string>& names);
 
 }  // namespace hagfish

@@ -1,6 +1,6 @@
 #include "core/log/means/log_means.hpp"
 
-#include <limits>
+#include <cmath>
 
 namespace hagfish {
 namespace {
@@ -12,6 +12,9 @@ void visit_vectors(Means& means, Visit visit) {
   visit(means.active_torque);
   visit(means.net_force);
 }
+
+/// Nan where there is nothing to divide by.
+double ratio(double a, double b) { return b > 0 ? a / b : NAN; }
 
 }  // namespace
 
@@ -50,7 +53,7 @@ void RunningMeans::take(const StepRecord& record, const ThigmotaxisRows& rows) {
 }
 
 const FrameMeans& RunningMeans::close() {
-  const double per_step = steps_ > 0 ? 1.0 / steps_ : std::numeric_limits<double>::quiet_NaN();
+  const double per_step = steps_ > 0 ? 1.0 / steps_ : NAN;
   mean_ = sum_;
   visit_vectors(mean_, [per_step](Eigen::VectorXd& v) { v *= per_step; });
   mean_.sum_of_rows *= per_step;
@@ -61,6 +64,22 @@ const FrameMeans& RunningMeans::close() {
   }
   clear();
   return mean_;
+}
+
+PullFigures pull_figures(const FrameMeans& mean) {
+  const Eigen::VectorXd& wall = mean.force[RowKind::obstacle];
+  const Eigen::Index hinges = wall.size() - root_dofs;
+  PullFigures pull;
+  pull.force = pull_of(mean.force[RowKind::head]);
+  pull.plate = wall[0];
+  // The moment about the origin of a force F along x at (0, y, z) is (0, z F, -y F).
+  pull.bearing = {ratio(-wall[5], pull.plate), ratio(wall[4], pull.plate)};
+  pull.torque = (mean.active_torque + mean.force[RowKind::thigmotaxis])
+                    .tail(hinges)
+                    .lpNorm<Eigen::Infinity>();
+  pull.advantage_rows = ratio(pull.force, mean.sum_of_rows);
+  pull.advantage_torque = ratio(pull.force, pull.torque);
+  return pull;
 }
 
 }  // namespace hagfish

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <array>
-#include <limits>
+#include <cmath>
 
 #include "core/log/means/thigmotaxis_rows.hpp"
 #include "core/run/simulation.hpp"
@@ -41,7 +41,7 @@ class RunningMeans {
 /// What the head's pull at food comes to, from the means between two frames. All nan where nothing
 /// pulls.
 struct PullFigures {
-  double force = std::numeric_limits<double>::quiet_NaN();  ///< pull of the head at the food, dyn
+  double force = NAN;                           ///< pull of the head at the food, dyn
   double plate = force;                         ///< force of the plate on the knot, along +x, dyn
   std::array<double, 2> bearing{force, force};  ///< y, z of the point at which that acts, cm
   double torque = force;            ///< largest of a hinge, active and thigmotaxis, dyn cm

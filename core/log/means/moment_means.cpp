@@ -1,6 +1,6 @@
 #include "core/log/means/moment_means.hpp"
 
-#include <limits>
+#include <cmath>
 
 namespace hagfish {
 namespace {
@@ -49,7 +49,7 @@ void add_moments(const Model& model, const TimeSettings& time, const StepRecord&
 }
 
 const JointMoments& MomentMeans::close() {
-  const double per_step = steps_ > 0 ? 1.0 / steps_ : std::numeric_limits<double>::quiet_NaN();
+  const double per_step = steps_ > 0 ? 1.0 / steps_ : NAN;
   mean_ = sum_;
   visit_all(mean_, [per_step](Eigen::Matrix3Xd& m) { m *= per_step; });
   visit_all(sum_, [](Eigen::Matrix3Xd& m) { m.setZero(); });

@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace hagfish {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 ThigmotaxisRow thigmotaxis_row(const Control& control, const StepSolution& solution, std::size_t i,
                                double h) {
@@ -32,9 +27,9 @@ ThigmotaxisRow thigmotaxis_row(const Control& control, const StepSolution& solut
 ThigmotaxisRows thigmotaxis_rows_of(const Control& control, const StepSolution& solution,
                                     double h) {
   ThigmotaxisRows rows;
-  rows.command.fill(nan);
-  rows.speed.fill(nan);
-  rows.slack.fill(nan);
+  rows.command.fill(NAN);
+  rows.speed.fill(NAN);
+  rows.slack.fill(NAN);
   rows.met = true;
   for (std::size_t i = 0; i < solution.rows.size(); ++i) {
     if (solution.rows[i].kind != RowKind::thigmotaxis) continue;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <limits>
+#include <cmath>
 #include <string>
 
 #include "core/step/step_input.hpp"
@@ -39,10 +39,10 @@ struct ThigmotaxisRows {
   std::array<double, 4> command{};  ///< right side of Eq. 6, cm/s; nan where no row
   std::array<double, 4> speed{};    ///< left side of Eq. 6 at the solution, cm/s; nan where no row
   std::array<double, 4> slack{};    ///< cm/s; nan where no row
-  double cap = std::numeric_limits<double>::quiet_NaN();  ///< bound of λ / h, dyn; nan: no row
-  double sum = 0;  ///< sum of the multipliers of all rows over h, dyn
-  int others = 0;  ///< rows at other contacts
-  double others_slack = std::numeric_limits<double>::quiet_NaN();  ///< the largest of theirs, cm/s
+  double cap = NAN;                 ///< bound of λ / h, dyn; nan: no row
+  double sum = 0;                   ///< sum of the multipliers of all rows over h, dyn
+  int others = 0;                   ///< rows at other contacts
+  double others_slack = NAN;        ///< the largest of theirs, cm/s
   bool any = false;
   /// All rows at their commanded speed without slack; others to within that of a command of 0.
   bool met = false;

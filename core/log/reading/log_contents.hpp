@@ -18,6 +18,8 @@ struct LogContents {
   /// makes (log_schema.hpp), where /model has another value, of which the first is named, or where
   /// the log holds less than `least`.
   explicit LogContents(const std::string& file, LogLevel least = LogLevel::full);
+  LogContents(const LogContents&) = delete;  // `model` refers to its own scene
+  LogContents& operator=(const LogContents&) = delete;
   Hdf5Reader h5;
   ResolvedScene resolved;
   const Model& model = resolved.model;

@@ -16,31 +16,33 @@
 namespace hagfish {
 namespace {
 
-// What no animal comes to; figures of physics overflow long after these.
-constexpr double furthest_position = 1e6;  // of the head, cm
-constexpr double largest_angle = 1e3;      // of a hinge, rad
+// Values that no animal comes to; figures of physics overflow long after these.
+constexpr double furthest_position = 1e6;  // position of the head, cm
+constexpr double largest_angle = 1e3;      // angle of a hinge, rad
 constexpr double largest_velocity = 1e9;   // cm/s, rad/s
 /// Doubles count steps exactly up to here.
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 /// The norm of the head's quaternion, 1 but for rounding, is at least this and at most one over it.
 constexpr double least_norm = 0.5;
 
-/// Datasets that no command goes without.
-constexpr const char* always_there[] = {"/trajectory/time",
-                                        "/trajectory/q",
-                                        "/trajectory/qdot",
-                                        "/trajectory/position",
-                                        "/trajectory/qdot_next",
-                                        "/trajectory/phase",
-                                        "/trajectory/step",
-                                        "/thigmotaxis/body_b",
-                                        "/knot/determinant",
-                                        "/knot/v2",
-                                        "/knot/head_end",
-                                        "/knot/tail_end",
-                                        "/steps/eq6",
-                                        "/diagnostics/wall_time",
-                                        "/steps/kkt"};
+/// Datasets that no command goes without where a log of this scene has them, and such groups.
+constexpr std::string_view needed_datasets[] = {"/trajectory/time",
+                                                "/trajectory/q",
+                                                "/trajectory/qdot",
+                                                "/trajectory/position",
+                                                "/trajectory/qdot_next",
+                                                "/trajectory/phase",
+                                                "/trajectory/step",
+                                                "/thigmotaxis/body_b",
+                                                "/knot/determinant",
+                                                "/knot/v2",
+                                                "/knot/head_end",
+                                                "/knot/tail_end",
+                                                "/steps/eq6",
+                                                "/diagnostics/wall_time",
+                                                "/steps/kkt"};
+const std::vector<std::string> needed_groups = {"/forces/", "/midway/", "/eq6/",   "/control/",
+                                                "/basis/",  "/reflex/", "/muscle/"};
 
 /// Type and extents of a dataset.
 struct DatasetForm {
@@ -210,11 +212,8 @@ bool ends_with_end_frame(const Hdf5Reader& log) {
 void check_schema(const Hdf5Reader& log, const Model& model, const Scene& scene) {
   const std::vector<DatasetForm> forms = log_forms(log, model, scene);
   for (const DatasetForm& form : forms) {
-    const bool needed = form.path.starts_with("/forces/") || form.path.starts_with("/midway/") ||
-                        form.path.starts_with("/eq6/") || form.path.starts_with("/control/") ||
-                        form.path.starts_with("/basis/") || form.path.starts_with("/reflex/") ||
-                        form.path.starts_with("/muscle/") ||
-                        std::ranges::find(always_there, form.path) != std::end(always_there);
+    const bool needed = any_begins(form.path, needed_groups) ||
+                        std::ranges::find(needed_datasets, form.path) != std::end(needed_datasets);
     if (needed || log.has(form.path)) check_form(log, form);
   }
   if (rows_of(log, "/trajectory/time") == 0) refuse(log, "holds no frames");

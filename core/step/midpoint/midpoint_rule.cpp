@@ -1,14 +1,13 @@
 #include "core/step/midpoint/midpoint_rule.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace hagfish {
 namespace {
 
 /// Least share of a pass's change that is taken to remain.
 constexpr double least_remaining = 1e-3;
-constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// How far velocities differ (nv both): the largest of the hinges' rates, rad/s, and of the root's
 /// velocity as a whole, cm/s, and turn. So it is the same however the world's axes lie.
@@ -65,7 +64,7 @@ Status MidpointRule::settle(const StepInput& in, Rounds& rounds, WarmStart& warm
   if (settled_or_stopped()) return status;
   // Passes that do not converge may diverge until one fails. Then the step is taken from its own
   // first velocity.
-  if (!status.ok()) step.middle.unsettled = unlimited;
+  if (!status.ok()) step.middle.unsettled = INFINITY;
   midway_.step_velocity = midway_.mean_velocity = in.state.qdot;
   place_midway(in.model, in.state, in.observation.kin, in.scene.time.step, false,
                keeps_momentum(in), midway_);
@@ -97,7 +96,7 @@ Status MidpointRule::find_middle(const StepInput& in, bool balanced, Rounds& rou
     const double off = difference(step.qdot, midway_.step_velocity);
     if (pass > 1) {
       // Changes shrink by the factor θ: the rest is off (θ + θ² + ...) = off θ / (1 - θ).
-      middle.remaining = off < before ? std::max(off / (before - off), least_remaining) : unlimited;
+      middle.remaining = off < before ? std::max(off / (before - off), least_remaining) : INFINITY;
     }
     if (off == 0 || middle.remaining * off <= time.settled) return {};
     before = off;

@@ -1,6 +1,6 @@
 #include "core/step/rows/contact_rows.hpp"
 
-#include <limits>
+#include <cmath>
 
 #include "core/contact/obstacles.hpp"
 
@@ -45,7 +45,7 @@ Row plane_row(const PlaneGap& gap) {
   BetweenPoints points;
   points.direction = gap.plane.normal;
   points.a = {gap.body, 1, {1}, static_cast<double>(gap.body)};
-  points.b.parameter = std::numeric_limits<double>::quiet_NaN();  // of a strand's point
+  points.b.parameter = NAN;  // of a strand's point
   row.shape = points;
   return row;
 }

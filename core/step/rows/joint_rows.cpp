@@ -1,14 +1,8 @@
 #include "core/step/rows/joint_rows.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace hagfish {
-namespace {
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 Row cone_row(const BendingCone& cone, const Bend& bend, int number) {
   Row row;
@@ -28,7 +22,7 @@ void append_head_rows(const State& state, const ConstraintSettings& settings, do
     row.id = {.of = RowId::Of::head, .first = k};
     row.shape = OnJoint{k};
     row.rhs = -settings.baumgarte / h * (k < 3 ? state.q[k] : turn[k - 3]);
-    row.lower = -unbounded;
+    row.lower = -INFINITY;
   }
 }
 
@@ -49,7 +43,7 @@ void append_hinge_rows(const Model& model, const State& state, const ConstraintS
     const double nearer = state.q[k + 1] - hinge.lower <= hinge.upper - state.q[k + 1] ? 1 : -1;
     for (const double sign : {nearer, -nearer}) {
       const double gap = sign > 0 ? state.q[k + 1] - hinge.lower : hinge.upper - state.q[k + 1];
-      const std::optional<double> rhs = unilateral(gap, settings, h, unbounded);
+      const std::optional<double> rhs = unilateral(gap, settings, h, INFINITY);
       if (!rhs || !std::isfinite(gap) || !wanted(sign * wanted.v[k], *rhs)) continue;
       Row& row = rows.emplace_back();
       row.kind = RowKind::limit;
@@ -68,7 +62,7 @@ void append_cone_rows(const Model& model, const State& state, const ConstraintSe
     // joints are far from their cones.
     if (!wanted(-wanted.v.segment<2>(cone.dof).norm(), (angles.norm() - cone.limit) / h)) continue;
     const Bend bend = total_bend(angles[0], angles[1]);
-    const std::optional<double> rhs = unilateral(cone.limit - bend.angle, settings, h, unbounded);
+    const std::optional<double> rhs = unilateral(cone.limit - bend.angle, settings, h, INFINITY);
     if (!rhs || bend.slope.isZero(0)) continue;
     Row& row = rows.emplace_back(cone_row(cone, bend, 0));
     row.rhs = *rhs;

@@ -4,10 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <cmath>
 #include <compare>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -96,7 +95,7 @@ struct Row {
   /// step (midpoint rule, midpoint/impacts.cpp).
   double impact = 0;
   double lower = 0;  ///< bounds on the multiplier λ, dyn s or dyn cm s
-  double upper = std::numeric_limits<double>::infinity();
+  double upper = INFINITY;
   /// Flesh yields: C q̇ + compliance λ >= d, cm/s over dyn s; 0 in hard rows (flesh_rows.hpp).
   double compliance = 0;
   double damper = 0;  ///< damping of flesh, k' w τ, dyn s/cm; 0 before skins touch

@@ -1,7 +1,7 @@
 #include "core/step/rows/row_selection.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "core/step/rows/contact_rows.hpp"
 #include "core/step/rows/flesh_rows.hpp"
@@ -16,7 +16,6 @@ namespace {
 constexpr double lazy_reach = 6e-5;
 /// A row that was left out counts as violated below this in a step, in the same units.
 constexpr double lazy_tolerance = 2e-11;
-constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
 /// The unilateral rows near binding. Pairs of segments that are not a minimum of the gap are
 /// included only if `is_considered` holds. At 400 bodies each minimum has many neighbours, and few
@@ -88,7 +87,7 @@ void gather_violated_rows(const StepInput& in, const StepPlace& place, const Ste
   rows.clear();
   const auto all = [](const Contact&) { return true; };
   append_unilateral_rows(in, place,
-                         {step.qdot, step.bodies(), -lazy_tolerance / in.scene.time.step, nowhere,
+                         {step.qdot, step.bodies(), -lazy_tolerance / in.scene.time.step, -INFINITY,
                           in.model.bodies[0].radius},
                          all, rows);
 }

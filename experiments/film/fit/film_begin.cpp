@@ -180,7 +180,7 @@ Eigen::MatrixXd through(const ProgramShape& shape, const Film& film,
   Eigen::MatrixXd form = Eigen::MatrixXd::Zero(n, n);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, shape.values());
   for (std::size_t i = 0; i < frames.which.size(); ++i) {
-    const TablePlace at = film_place(film, frames.which[i], knots);
+    const Bracket at = film_place(film, frames.which[i], knots);
     const auto k = static_cast<Eigen::Index>(at.index);
     Eigen::Vector2d shares(1 - at.share, at.share);
     form.block<2, 2>(k, k) += shares * shares.transpose();
@@ -196,8 +196,8 @@ Eigen::MatrixXd through(const ProgramShape& shape, const Film& film,
 
 }  // namespace
 
-TablePlace film_place(const Film& film, std::size_t frame, const std::vector<double>& knots) {
-  TablePlace place = place_among(knots, film.frames[frame].time - film.frames.front().time);
+Bracket film_place(const Film& film, std::size_t frame, const std::vector<double>& knots) {
+  Bracket place = bracket_of(knots, film.frames[frame].time - film.frames.front().time);
   if (place.index + 1 == knots.size()) place = {knots.size() - 2, 1};
   return place;
 }

@@ -16,7 +16,7 @@ struct FilmUnknowns {
 };
 
 /// Place of a frame's time among the program's, `knots`.
-TablePlace film_place(const Film& film, std::size_t frame, const std::vector<double>& knots);
+Bracket film_place(const Film& film, std::size_t frame, const std::vector<double>& knots);
 
 /// What smooths to begin with, cm^2 of squared distance for 1 (rad per length)^2 of second
 /// difference: a millimetre of noise, differences of 10 rad per length.

@@ -80,9 +80,9 @@ class Fit {
   const FilmPose& pose_of(const FilmUnknowns& x, std::size_t frame) const {
     return x.pose[still_ ? 0 : frame];
   }
-  TablePlace when(std::size_t frame) const { return film_place(film_, frame, knots_); }
+  Bracket when(std::size_t frame) const { return film_place(film_, frame, knots_); }
   Eigen::VectorXd values_at(const FilmUnknowns& x, std::size_t frame) const {
-    const TablePlace at = when(frame);
+    const Bracket at = when(frame);
     const auto k = static_cast<Eigen::Index>(at.index);
     return (1 - at.share) * x.values.col(k) + at.share * x.values.col(k + 1);
   }
@@ -134,7 +134,7 @@ class Fit {
     frame_pose_.resize(still_ ? 0 : film_.frames.size());
     double sum = 0;
     for (std::size_t f = 0; f < film_.frames.size(); ++f) {
-      const TablePlace at = when(f);
+      const Bracket at = when(f);
       const auto k = static_cast<Eigen::Index>(at.index);
       Misfit misfit = hagfish::misfit(shape_, film_.frames[f], values_at(now_, f), pose_of(now_, f),
                                       now_.scale, pose_size_);

@@ -6,7 +6,7 @@
 #include "core/chain/kinematics.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "experiments/common/csv.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/film/film_checks.hpp"

@@ -6,7 +6,7 @@
 #include "core/input/files/text_file.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "experiments/common/cores.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/design/design.hpp"

@@ -8,7 +8,7 @@
 #include "core/input/csv/delimited_text.hpp"
 #include "core/input/files/text_file.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "core/log/reading/log_contents.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/judge/replay.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/control/controller.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "core/log/reading/log_contents.hpp"
 #include "core/log/reading/logged_run.hpp"
 #include "experiments/export/swept_skin.hpp"

@@ -11,7 +11,7 @@
 #include "core/input/csv/curvature_csv.hpp"
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/common/specimen_files.hpp"
 #include "experiments/common/text_file.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
-#include "core/knot/knot_words.hpp"
+#include "core/knot/knot.hpp"
 #include "core/log/hdf5/output_file.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"

@@ -154,7 +154,7 @@ TEST(Momentum, TheCentreOfMassMovesByIt) {
     const Eigen::Vector3d impulse = (run.ledger.drag - run.before.drag).linear;
     const double h = run.scene.time.step;
     const Eigen::Vector3d moved =
-        h / 3 / mass_of(run.model) *
+        h / 3 / run.model.mass() *
         (run.before.momentum.linear + run.scene.time.reach() / h * impulse);
     EXPECT_TRUE(run.shift[0].isZero(1e-14)) << run.shift[0].transpose();
     const double tolerance = rule == TimeRule::euler ? 1e-12 : 1e-8;  // passes find the middle

@@ -15,12 +15,17 @@ namespace hagfish::series_test {
 
 using Shape = std::vector<hsize_t>;
 
+template <class T>
+void append_value(Series& series, T value) {
+  series.append(&value, sizeof value);
+}
+
 /// One series of each kind in a file.
 class SeriesTest : public testing::Test {
  protected:
   SeriesTest() {
     Hdf5Writer h5;
-    for (AnySeries* s : all) {
+    for (Series* s : all) {
       s->create(h5);
     }
     h5.save(file);
@@ -30,23 +35,23 @@ class SeriesTest : public testing::Test {
   void append(int k) {
     std::vector<double> row(600);
     std::iota(row.begin(), row.end(), 600.0 * k);
-    dense.append(row.data(), 6);
-    sparse.append(row.data(), row.size());
-    blocks.append(row.data(), 70);
-    ints.append(-k);
-    longs.append(std::int64_t{k} << 33);
-    choices.append(static_cast<std::uint8_t>(k % 3));
+    dense.append(row.data(), 6 * sizeof(double));
+    sparse.append(row.data(), row.size() * sizeof(double));
+    blocks.append(row.data(), 70 * sizeof(double));
+    append_value(ints, std::int32_t{-k});
+    append_value(longs, std::int64_t{k} << 33);
+    append_value(choices, static_cast<std::uint8_t>(k % 3));
   }
 
   void save() {
     std::size_t room = 65536;
-    for (AnySeries* s : all) room += s->room();
+    for (Series* s : all) room += s->room();
     const auto before = std::filesystem::file_size(file);
     Hdf5Writer h5(file);
-    for (AnySeries* s : all) s->write(h5);
+    for (Series* s : all) s->write(h5);
     h5.close();
     EXPECT_LE(std::filesystem::file_size(file), before + room);
-    for (AnySeries* s : all) s->written();
+    for (Series* s : all) s->written();
   }
 
   /// Rows 0 to `count` - 1 are in the file, and no others.
@@ -84,15 +89,15 @@ class SeriesTest : public testing::Test {
 
   TemporaryFolder folder;
   std::filesystem::path file = folder / "a.h5";
-  Series<double> dense{chunked(layout_of<double>("/a/dense", {2, 3}, {"1", "rows of six"}))};
-  Series<double> sparse{
-      layout_of<double>("/a/b/sparse", {600}, {"dyn", "compressed", Storage::packed})};
-  Series<double> blocks{
-      chunked(layout_of<double>("/a/blocks", {70}, {"dyn", "blocks", Storage::blocks}))};
-  Series<std::int32_t> ints{chunked(layout_of<std::int32_t>("/ints", {}, {"1", "ints"}))};
-  Series<std::int64_t> longs{layout_of<std::int64_t>("/longs", {}, {"1", "longs"})};
-  Series<std::uint8_t> choices{layout_of_choices("/choices", {"zero", "one", "two"}, {"1", "c"})};
-  std::vector<AnySeries*> all = {&dense, &sparse, &blocks, &ints, &longs, &choices};
+  Series dense{chunked(layout_of("/a/dense", {2, 3}, {"1", "rows of six"}, stored_type<double>()))};
+  Series sparse{layout_of("/a/b/sparse", {600}, {"dyn", "compressed", Storage::packed},
+                          stored_type<double>())};
+  Series blocks{chunked(
+      layout_of("/a/blocks", {70}, {"dyn", "blocks", Storage::blocks}, stored_type<double>()))};
+  Series ints{chunked(layout_of("/ints", {}, {"1", "ints"}, stored_type<std::int32_t>()))};
+  Series longs{layout_of("/longs", {}, {"1", "longs"}, stored_type<std::int64_t>())};
+  Series choices{layout_of("/choices", {}, {"1", "c"}, choice_type({"zero", "one", "two"}))};
+  std::vector<Series*> all = {&dense, &sparse, &blocks, &ints, &longs, &choices};
 };
 
 TEST_F(SeriesTest, EverySaveHasAllRowsSoFar) {
@@ -117,8 +122,8 @@ TEST_F(SeriesTest, RowsOfZerosComeBack) {
     if (random() % 9 == 0) zero = !zero;
     std::vector<double> row(600, zero ? 0.0 : k);
     expected.push_back(row[0]);
-    dense.append(row.data(), 6);
-    sparse.append(row.data(), row.size());
+    dense.append(row.data(), 6 * sizeof(double));
+    sparse.append(row.data(), row.size() * sizeof(double));
     if (random() % 5 == 0) save();
   }
   save();
@@ -137,7 +142,7 @@ TEST_F(SeriesTest, ZerosTakeNoRoom) {
   constexpr int rows = 7000;  // of six numbers
   const auto size_after = [&](double value) {
     const std::vector<double> row(6, value);
-    for (int k = 0; k < rows; ++k) dense.append(row.data(), row.size());
+    for (int k = 0; k < rows; ++k) dense.append(row.data(), row.size() * sizeof(double));
     save();
     return std::filesystem::file_size(file);
   };
@@ -153,7 +158,7 @@ TEST_F(SeriesTest, ColumnsOfZerosTakeNoRoomInBlocks) {
     std::vector<double> row(columns, elsewhere);
     for (int k = 0; k < rows; ++k) {
       row[acting] = k + 1;
-      blocks.append(row.data(), row.size());
+      blocks.append(row.data(), row.size() * sizeof(double));
       if (k % 100 == 0) save();
     }
     save();
@@ -188,15 +193,15 @@ TEST_F(SeriesTest, ATableHasNoRowOfWhichAColumnThrows) {
 
 TEST_F(SeriesTest, RefusesRowsOfAnotherSize) {
   const std::vector<double> row(2);
-  EXPECT_THROW(dense.append(row.data(), row.size()), std::logic_error);
-  EXPECT_THROW(dense.append(1.0), std::logic_error);
+  EXPECT_THROW(dense.append(row.data(), row.size() * sizeof(double)), std::logic_error);
+  EXPECT_THROW(append_value(dense, 1.0), std::logic_error);
 }
 
 // A row of two axes would be told to be zero by its last axis alone, and left out.
 TEST(SeriesLayout, BlocksAreOfRowsOfOneAxis) {
   const Meaning blocks{"1", "", Storage::blocks};
-  EXPECT_NO_THROW(layout_of<double>("/a", {70}, blocks));
-  EXPECT_THROW(layout_of<double>("/a", {70, 3}, blocks), std::logic_error);
+  EXPECT_NO_THROW(layout_of("/a", {70}, blocks, stored_type<double>()));
+  EXPECT_THROW(layout_of("/a", {70, 3}, blocks, stored_type<double>()), std::logic_error);
 }
 
 }  // namespace hagfish::series_test
