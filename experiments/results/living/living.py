@@ -107,7 +107,7 @@ def sweep_rows(sweeps: dict[str, dict[str, list[tuple[float, Run]]]]) -> list[li
 def main_table(folder: Path) -> None:
     off = lambda runs: [run for run in runs if run.off]
     held, free = ([run for run, in runs_of(folder / name)] for name in ("held", "free"))
-    animals = list(map(off, runs_of(folder / "animal")))
+    animals = list(map(off, runs_of(folder / "animals")))
     programs = [cell.log.scene()["script"]["curvature"] for cell in read_cells(folder / "held")]
     large = lambda value: tables.short(value, ".1e")
     slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"
