@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/input/input_error.hpp"
+#include "experiments/common/cores.hpp"
 #include "experiments/common/cpu_time.hpp"
-#include "experiments/common/in_parallel.hpp"
 #include "experiments/sweep/sweep_run.hpp"
 
 namespace hagfish {
