@@ -510,8 +510,8 @@ def test_points_in_space_keep_their_hand(film, tmp_path):
             h5["tracks"].attrs[attribute[0]] = attribute[1]
     fps = (len(points) - 1) / (time[::3][-1] - time[0])
     for name, unit in [("dltdv.csv", "m"), ("anipose.csv", "mm"), ("dlc.csv", "mm"), ("sleap.h5", "cm"), ("anipose.h5", "cm")]:
-        said = hagfish(tmp_path, "midlines", name, "--fps", fps, "--unit", unit, "--out", "p.csv", "--force", *FITTED)
-        assert "fitted: " in said and "3_1, right-handed" in said and "runs down" not in said, name
+        said = hagfish(tmp_path, "against", film / "a.h5", name, "--fps", fps, "--unit", unit, "--animal-length", LENGTH)
+        assert rms_of(said) < WITHIN and "runs down" not in said and "direction of y" not in said, name
         refused(tmp_path, "midlines", name, "--fps", fps, "--out", "q.csv", parts=(name, "--unit cm, mm or m"))
 
 
