@@ -1,4 +1,4 @@
-"""Picks states of every phase from a Table 1 log, for tests/validation/phases_test.cpp.
+"""Picks states of every phase from a Table 1 log, for tests/validation/equation4_test.cpp and others.
 
 Usage: store_states.py LOG.h5 OUT.toml
 """

@@ -14,8 +14,9 @@ from pathlib import Path
 import pytest
 
 from pages import ROOT, documents
+from program import HAGFISH as PROGRAM
+from program import logged
 
-PROGRAM = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
 TUTORIALS = sorted((ROOT / "experiments/docs/tutorials").glob("*.md"))
 HOWTO = sorted(path for path in (ROOT / "experiments/docs/howto").glob("*.md") if "```bash" in path.read_text(encoding="utf-8"))
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -73,9 +74,7 @@ def test_a_tutorial_runs_and_says_what_it_shows(path, project):
 
 @pytest.fixture(scope="module")
 def knot(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("knot")
-    run(folder, "hagfish run living_overhand --quiet --out knot.h5")
-    return folder / "knot.h5"
+    return logged(tmp_path_factory.mktemp("knot"), "living_overhand", out="knot.h5")
 
 
 @pytest.mark.parametrize("path", HOWTO, ids=lambda path: path.stem)

@@ -1,6 +1,8 @@
 #include "tests/support/chain_runs.hpp"
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -55,6 +57,25 @@ double ChainRun::energy() const {
 }
 
 Eigen::Matrix3Xd ChainRun::centres() const { return kinematics(model, state).centre; }
+
+ChainRun chain_round_a_post() {
+  Model model;
+  append_root(model, post_link);
+  for (int b = 1; b < 86; ++b) {
+    append_body(model, thin_rod(0.02, post_link), {Axis::z});
+    model.hinges.back().damping = 0.1;  // dyn cm s
+  }
+  model.drag = {.normal = 1, .tangential = 1};
+  const Eigen::Vector3d post(12, post_radius, 0), half(0, 0, 5);
+  model.obstacles.push_back({"post", Strand{{post - half, post + half}, post_radius}});
+  ChainRun run(model, bare_scene(0.002));
+  // The joints that turn by the angle that a link takes on the post.
+  const double turn = 2 * std::asin(post_link / 2 / post_radius);
+  const int first = static_cast<int>(post.x() / post_link);
+  const int count = static_cast<int>(std::round(std::numbers::pi / turn));
+  run.state.q.segment(7 + first - 1, count).setConstant(std::numbers::pi / count);
+  return run;
+}
 
 double measured_period(ChainRun& run, const std::function<double(const State&)>& coordinate,
                        int periods) {

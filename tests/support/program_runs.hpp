@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "core/input/csv/delimited_text.hpp"
+#include "core/input/files/text_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hagfish {
@@ -24,9 +26,12 @@ struct ProgramOutcome {
 /// A folder of its own, and the program run in it.
 class ProgramTest : public testing::Test {
  protected:
-  ProgramOutcome run_program(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder.path().string() + "' && " + before + " '" +
-                                HAGFISH_PROGRAM + "' " + arguments + " 2>&1";
+  ProgramOutcome run_program(const std::string& arguments) const {
+    return run_shell("'" HAGFISH_PROGRAM "' " + arguments);
+  }
+
+  ProgramOutcome run_shell(const std::string& words) const {
+    const std::string command = "cd '" + folder.path().string() + "' && " + words + " 2>&1";
     ProgramOutcome outcome;
     FILE* pipe = popen(command.c_str(), "r");
     std::array<char, 4096> buffer{};
@@ -53,6 +58,18 @@ class ProgramTest : public testing::Test {
 
   TemporaryFolder folder;
 };
+
+using Cells = std::vector<std::string>;
+
+/// The cells of each line of a CSV file, its heading first.
+inline std::vector<Cells> csv_cells(const std::filesystem::path& file) {
+  const DelimitedText table(read_text_file(file));
+  std::vector<Cells> rows(table.rows());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t k = 0; k < table.cells(r); ++k) rows[r].emplace_back(table.cell(r, k));
+  }
+  return rows;
+}
 
 /// 0.02 s of the run: as good as any where only the program's manners are tested.
 inline const std::string brief_run = "run --quiet --set time.duration=0.02 ";

@@ -20,12 +20,10 @@ void write_log(const std::filesystem::path& file, const ResolvedScene& scene, co
 /// Logs the whole run of `scene`, by the active-set method, in `file`.
 void write_log(const std::filesystem::path& file, const ResolvedScene& scene);
 
-/// What the audit objects to in `file`, a line each, but for the finding called `expected`, or why
-/// it refuses it. Empty for a good log.
-std::string audit_objections(const std::filesystem::path& file, const std::string& expected = "");
+/// What the audit objects to in `file`, a line each, or why it refuses it. Empty for a good log.
+std::string audit_objections(const std::filesystem::path& file);
 /// The same while the log claims to be of `scene`.
-std::string audit_objections_as(const std::filesystem::path& file, const ResolvedScene& scene,
-                                const std::string& expected = "");
+std::string audit_objections_as(const std::filesystem::path& file, const ResolvedScene& scene);
 
 /// Writes `text` as the scene of a log; returns what that was.
 std::string write_scene(const std::filesystem::path& file, const std::string& text);

@@ -7,43 +7,18 @@
 // experiments/results/leverage/page.md, with θ = 180 degrees.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "tests/support/chain_runs.hpp"
 
 namespace hagfish::capstan_test {
 
-constexpr double link = 0.4;                     // cm
-constexpr double post_radius = 3;                // cm, to the chain's middle line
-const Eigen::Vector3d post(12, post_radius, 0);  // cm; its axis is along Z
-constexpr int bodies = 86;                       // 12 cm to the post, 9.4 round it, 13 back
-constexpr int beside = 12;                       // body at which the strands push each other
-constexpr double still = 1e-6;                   // cm/s, of all bodies that carry a force
-
-/// Heavy drag and light links: it comes to rest within some tenths of a second.
-ChainRun chain_round_a_post() {
-  Model model;
-  append_root(model, link);
-  for (int b = 1; b < bodies; ++b) {
-    append_body(model, thin_rod(0.02, link), {Axis::z});
-    model.hinges.back().damping = 0.1;  // dyn cm s
-  }
-  model.drag = {.normal = 1, .tangential = 1};
-  const Eigen::Vector3d half(0, 0, 5);
-  model.obstacles.push_back({"post", Strand{{post - half, post + half}, post_radius}});
-  ChainRun run(model, bare_scene(0.002));
-  run.scene.controller.eq6_at = Eq6Point::centreline;
-  // The joints that turn by the angle that a link takes on the post.
-  const double turn = 2 * std::asin(link / 2 / post_radius);
-  const int first = static_cast<int>(post.x() / link);
-  const int count = static_cast<int>(std::round(std::numbers::pi / turn));
-  run.state.q.segment(7 + first - 1, count).setConstant(std::numbers::pi / count);
-  return run;
-}
+constexpr double still = 1e-6;  // cm/s, of all bodies that carry a force
 
 class Capstan : public testing::Test {
  protected:
+  Capstan() { run.scene.controller.eq6_at = Eq6Point::centreline; }
+
   /// A step with a pull of `tip` (dyn) along -X at the loose end, and rows of Eq. 6 that ask for
   /// more than their `cap` (dyn) gives between the two strands.
   void step(double tip, double cap) {
@@ -64,8 +39,10 @@ class Capstan : public testing::Test {
   /// The pair of points beside each other, as far from the post, on the strand of the head and on
   /// the one that comes back.
   Contact strands() const {
+    const int bodies = run.model.body_count();
     int back = bodies / 2;  // on the post
     const Eigen::Matrix3Xd& centre = seen.kin.centre;
+    constexpr int beside = 12;  // body at which the strands push each other
     for (int b = back; b < bodies - 2; ++b) {
       back = (centre.col(b) - centre.col(beside)).norm() <
                      (centre.col(back) - centre.col(beside)).norm()
@@ -115,11 +92,11 @@ class Capstan : public testing::Test {
   StepSolver solver{"active-set"};
   StepSolution solution;
   Observation seen;
-  mutable int last_loaded = bodies;
+  mutable int last_loaded = run.model.body_count();
 };
 
 /// Of the tension: a link that touches the post beside its middle is not tangent to it there.
-constexpr double tolerance = link * link / (8 * post_radius * post_radius);
+constexpr double tolerance = post_link * post_link / (8 * post_radius * post_radius);
 
 TEST_F(Capstan, HandsOnAllOfThePull) {
   for (const double tension : {50.0, 200.0}) {

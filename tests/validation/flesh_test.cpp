@@ -1,5 +1,5 @@
-// Flesh that yields against closed forms: two tubes that cross, lie side by side and hook, a slit
-// of two poles, a rope round a post, a body that bounces on a plane.
+// Flesh that yields against closed forms: two tubes that cross, a slit of two poles, a rope round a
+// post, a body that bounces on a plane.
 #include "core/contact/flesh.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 #include "core/chain/start.hpp"
 #include "core/control/control_law.hpp"
 #include "core/run/simulation.hpp"
-#include "experiments/mechanics/clasp.hpp"
 #include "experiments/mechanics/rod.hpp"
 #include "tests/support/chain_runs.hpp"
 #include "tests/support/random_chain.hpp"
@@ -113,34 +112,6 @@ TEST_P(AtMeshes, TubesThatCrossPressAsTheirLensDoes) {
   }
 }
 
-TEST_P(AtMeshes, TubesSideBySidePressByTheirLength) {
-  Curve curve;
-  const double overlap = 0.3;
-  curve.line(14);
-  curve.arc((2 * radius - overlap) / 2, std::numbers::pi);
-  curve.line(14);
-  const double link = curve.length / GetParam();
-  const RodChain chain = chain_of({.radius = radius}, link, links_along(curve.points, link));
-  const Observation seen = observed(chain, flesh_scene(animal, 8));
-  double force = 0, gap = 0, points = 0;
-  const double from = 4, to = 8;  // cm along the first leg
-  for (const FleshPoint& point : seen.flesh.points) {
-    const Contact& c = point.contact;
-    const double x =
-        seen.segments[point.own]
-            .point((point.number + 0.5) / std::max(1.0, std::round(link / animal.spacing)))
-            .x();
-    if (x < from || x >= to) continue;
-    force += stiffness * point.weight * -c.gap;
-    gap += c.gap;
-    ++points;
-  }
-  const double line = stiffness * (-gap / points) * (to - from);
-  EXPECT_NEAR(-gap / points, overlap, 0.05);
-  // Points begin and end within a spacing of the ends.
-  EXPECT_NEAR(force, line, (force_tolerance + std::max(link, 0.212) / (to - from)) * line);
-}
-
 /// The animal with the same girth everywhere, straight through a slit of two poles.
 struct Slit {
   explicit Slit(int bodies, double share, double step = 0.002, double at = 21.2) {
@@ -232,23 +203,9 @@ TEST(FleshInASlit, IsPulledAlikeAtAnyStep) {
 
 // A rope that lies half round a post presses with its tension over its radius, everywhere alike.
 TEST(FleshRoundAPost, HasTheOverlapOfItsTension) {
-  constexpr double link = 0.4, post_radius = 3, tension = 200;
-  constexpr int bodies = 86;
-  const Eigen::Vector3d post(12, post_radius, 0), half(0, 0, 5);
-  Model model;
-  append_root(model, link);
-  for (int b = 1; b < bodies; ++b) {
-    append_body(model, thin_rod(0.02, link), {Axis::z});
-    model.hinges.back().damping = 0.1;
-  }
-  model.drag = {.normal = 1, .tangential = 1};
-  model.obstacles.push_back({"post", Strand{{post - half, post + half}, post_radius}});
-  ChainRun run(model, bare_scene(0.002));
+  constexpr double tension = 200;
+  ChainRun run = chain_round_a_post();
   run.scene.flesh = {2000, 0.015, 0.2};
-  const double turn = 2 * std::asin(link / 2 / post_radius);
-  const int first = static_cast<int>(post.x() / link);
-  const int count = static_cast<int>(std::round(std::numbers::pi / turn));
-  run.state.q.segment(7 + first - 1, count).setConstant(std::numbers::pi / count);
   for (int k = 0; k < 20000; ++k) {
     run.step({Eigen::Vector3d(-tension, 0, 0), 0});
     if (k > 100 && run.last.centre_velocity.cwiseAbs().maxCoeff() < 1e-5) break;
@@ -265,25 +222,6 @@ TEST(FleshRoundAPost, HasTheOverlapOfItsTension) {
   const double overlap = sum / points;
   const double expected = tension / ((post_radius - overlap) * run.scene.flesh.stiffness);
   EXPECT_NEAR(overlap, expected, 0.02 * expected);
-}
-
-// Two ropes that hook come to the hard ropes' distance as flesh becomes stiff.
-TEST(FleshOfAClasp, BecomesHardAsItBecomesStiff) {
-  constexpr double link = 0.2;
-  const ClaspChain both = clasp_chain(link);
-  const double hard = hook(link).tips;
-  double before = INFINITY;
-  for (const double k : {20.0, 80.0, 320.0}) {  // dyn/cm^2; the pull is 1 dyn
-    Scene scene = pulled_scene(0.5, clasp_pull, 1e-3, clasp_apart);
-    scene.flesh = {k, 0.015, 0.1};
-    Pulled rope(both.chain, scene, [&](const Kinematics&) { return both.loads; });
-    rope.relax(2e-5, 6000, 0.05);  // in longer steps soft ropes pass through each other
-    const double off = std::abs(both.tips(rope.kin().centre) - hard);
-    std::cout << "[ FIGURE   ] k' = " << k << ": tips " << off << " cm from hard ropes'\n";
-    EXPECT_LT(off, 0.5 * before);
-    before = off;
-  }
-  EXPECT_LT(before, 0.03);
 }
 
 // One body on a soft floor: period and decrement of a spring and a damper side by side.

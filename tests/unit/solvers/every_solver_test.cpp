@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <limits>
+#include <optional>
 
 #include "solvers/box_qp.hpp"
 #include "tests/support/random_qp.hpp"
@@ -63,25 +64,65 @@ TEST_P(EverySolver, StopsWhenAskedToAndSolvesTheNextProblem) {
   expect_solved(known.dual, solver->solve(known.dual, nothing));
 }
 
-/// A row that cannot move has next to no scale: what it asks for must not make others look met.
-TEST_P(EverySolver, SolvesRowsBesideOneThatCannotMove) {
-  constexpr double free = std::numeric_limits<double>::infinity();
-  BoxQp qp;
-  qp.A = Eigen::Matrix3d::Zero();
-  qp.A.topLeftCorner<2, 2>().setOnes();
-  qp.b = Eigen::Vector3d(0, 0.01, 1);
-  qp.lower = Eigen::Vector3d(-free, 0, 0);
-  qp.upper = Eigen::Vector3d(free, 2, 3);
-  const BoxQpSolution solution = solve_cold(qp);
-  expect_solved(qp, solution);
-  EXPECT_EQ(solution.x, Eigen::Vector3d(-2, 2, 3));
-  // Without its upper bound the second row asks for ever more.
-  qp.upper[1] = free;
-  BoxQpSolution endless;
-  endless.contradicting = {7};  // of a problem before
-  solver->solve(qp, Eigen::VectorXd::Zero(3), endless);
-  EXPECT_EQ(endless.status, SolveStatus::infeasible);
-  for (const Eigen::Index row : endless.contradicting) EXPECT_LT(row, 2);
+/// A problem that is solved by hand; without `x` its rows contradict each other.
+struct SmallQp {
+  const char* name;
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b, lower, upper;
+  std::optional<Eigen::VectorXd> x = {};
+};
+
+std::vector<SmallQp> small_qps() {
+  using V1 = Eigen::Matrix<double, 1, 1>;
+  using V2 = Eigen::Vector2d;
+  using V3 = Eigen::Vector3d;
+  const V1 four(4);
+  const auto of_rows = [](const auto& J) -> Eigen::MatrixXd { return J * J.transpose(); };
+  const Eigen::MatrixXd opposite = of_rows(V2(1, -1)), twice = of_rows(V2(1, 2)),
+                        still = V2(1, 0).asDiagonal(), nothing = Eigen::Matrix2d::Zero();
+  Eigen::Matrix3d beside = Eigen::Matrix3d::Zero();
+  beside.topLeftCorner<2, 2>().setOnes();
+  const double inf = infinity;
+  return {{"a hard row", four, V1(2), V1(0), V1(inf), V1(0.5)},
+          {"at its cap", four, V1(2), V1(0), V1(0.3), V1(0.3)},
+          {"with nothing to do", four, V1(-2), V1(0), V1(inf), V1(0)},
+          {"a free row", four, V1(-2), V1(-inf), V1(inf), V1(-0.5)},
+          {"no room between the bounds", four, V1(-2), V1(0), V1(0), V1(0)},
+          // The second wants a force but has a cap of 0; v = x0 = 1 alone remains.
+          {"no room beside others", of_rows(V3(1, 1, 1)), V3(1, 3, -1), V3(0, 0, 0),
+           V3(inf, 0, inf), V3(1, 0, 0)},
+          {"soft rows may contradict", opposite, V2(1, 1), V2(0, 0), V2(inf, 3), V2(4, 3)},
+          // v = 1 as a bilateral row, then twice the same row.
+          {"a bilateral row does it", twice, V2(1, 1.9), V2(-inf, 0), V2(inf, inf), V2(1, 0)},
+          {"a bilateral row forbids it", twice, V2(1, 2.1), V2(-inf, 0), V2(inf, inf)},
+          {"two bilateral rows", twice, V2(1, 2.1), V2(-inf, -inf), V2(inf, inf)},
+          {"a soft one pushes in vain", twice, V2(1, 2.1), V2(-inf, 0), V2(inf, 4), V2(-7, 4)},
+          {"one cannot move, and need not", still, V2(1, -1), V2(0, 0), V2(inf, inf), V2(1, 0)},
+          {"one cannot move, but must", still, V2(1, 1), V2(0, 0), V2(inf, inf)},
+          {"one cannot move, softly", still, V2(1, 1), V2(0, 0), V2(inf, 3), V2(1, 3)},
+          {"none can move, but must", nothing, V2(-1, 1), V2(0, 0), V2(inf, inf)},
+          // A row that cannot move has next to no scale: what it asks for must not make others look
+          // met. Without its upper bound the second row asks for ever more.
+          {"beside one that cannot move", beside, V3(0, 0.01, 1), V3(-inf, 0, 0), V3(inf, 2, 3),
+           V3(-2, 2, 3)},
+          {"for ever more", beside, V3(0, 0.01, 1), V3(-inf, 0, 0), V3(inf, inf, 3)}};
+}
+
+TEST_P(EverySolver, SolvesSmallProblemsByHand) {
+  for (const SmallQp& small : small_qps()) {
+    SCOPED_TRACE(small.name);
+    const BoxQp qp{small.A, small.b, small.lower, small.upper};
+    BoxQpSolution solution;
+    solution.contradicting = {7};  // of a problem before
+    solver->solve(qp, Eigen::VectorXd::Zero(qp.b.size()), solution);
+    if (small.x) {
+      expect_solved(qp, solution);
+      EXPECT_LE((solution.x - *small.x).lpNorm<Eigen::Infinity>(), settled);
+    } else {
+      EXPECT_EQ(solution.status, SolveStatus::infeasible);
+      for (const Eigen::Index row : solution.contradicting) EXPECT_LT(row, 2);
+    }
+  }
 }
 
 TEST_P(EverySolver, FindsTheVelocityWhereMultipliersAreNotUnique) {
@@ -118,31 +159,6 @@ TEST_P(EverySolver, DoesNotDependOnUnits) {
     EXPECT_LE((solution.x - known.x).cwiseProduct(scale).lpNorm<Eigen::Infinity>(),
               settled * known.x.cwiseProduct(scale).lpNorm<Eigen::Infinity>());
   }
-}
-
-TEST_P(EverySolver, SolvesOneRow) {
-  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
-  BoxQp qp = unilateral_qp(4 * one, 2 * one);
-  EXPECT_EQ(solve_cold(qp).x[0], 0.5);
-  qp.upper[0] = 0.3;
-  EXPECT_EQ(solve_cold(qp).x[0], 0.3);
-  qp.b[0] = -2;
-  EXPECT_EQ(solve_cold(qp).x[0], 0);
-  qp.lower[0] = -infinity;
-  qp.upper[0] = infinity;
-  EXPECT_EQ(solve_cold(qp).x[0], -0.5);
-  qp.upper[0] = 0;
-  qp.lower[0] = 0;
-  EXPECT_EQ(solve_cold(qp).x[0], 0) << "no room between the bounds";
-}
-
-TEST_P(EverySolver, LeavesRowsWithoutRoomAtRest) {
-  // The second row wants a force but has a cap of zero; v = x₀ = 1 alone remains.
-  BoxQp qp = qp_of_rows(Eigen::MatrixXd::Ones(3, 1), Eigen::Vector3d(1, 3, -1));
-  qp.upper[1] = 0;
-  const BoxQpSolution solution = solve_cold(qp);
-  expect_solved(qp, solution);
-  EXPECT_NEAR(solution.x[0], 1, settled);
 }
 
 TEST_P(EverySolver, SolvesNothing) {
@@ -182,52 +198,6 @@ TEST_P(EverySolver, RefusesContradictoryRows) {
     EXPECT_EQ(solution.status, SolveStatus::infeasible) << margin;
     EXPECT_TRUE(solution.x.allFinite());
   }
-}
-
-TEST_P(EverySolver, SoftRowsMayContradictEachOther) {
-  BoxQp qp = qp_of_rows(Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1));
-  qp.upper[1] = 3;
-  const BoxQpSolution solution = solve_cold(qp);
-  expect_solved(qp, solution);
-  EXPECT_NEAR(solution.x[0], 4, settled);  // v = x₀ - x₁ = 1 with x₁ at its cap
-  EXPECT_EQ(solution.x[1], 3);
-}
-
-TEST_P(EverySolver, RefusesWhatBilateralRowsForbid) {
-  // v = 1 as a bilateral row, then twice the same row asking for 2 v >= rhs.
-  BoxQp qp = qp_of_rows(Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 1.9));
-  qp.lower[0] = -infinity;
-  BoxQpSolution solution = solve_cold(qp);
-  ASSERT_EQ(solution.status, SolveStatus::solved);
-  EXPECT_EQ(solution.x, Eigen::VectorXd(Eigen::Vector2d(1, 0)));
-  qp.b[1] = 2.1;
-  EXPECT_EQ(solve_cold(qp).status, SolveStatus::infeasible);
-  qp.lower[1] = -infinity;
-  EXPECT_EQ(solve_cold(qp).status, SolveStatus::infeasible) << "two bilateral rows";
-  qp.lower[1] = 0;
-  qp.upper[1] = 4;  // a soft one pushes all that it may, and the other holds against it
-  solution = solve_cold(qp);
-  ASSERT_EQ(solution.status, SolveStatus::solved);
-  EXPECT_LE((solution.x - Eigen::Vector2d(-7, 4)).lpNorm<Eigen::Infinity>(), settled);
-}
-
-TEST_P(EverySolver, TakesRowsThatCannotMove) {
-  Eigen::Matrix2d A;
-  A << 1, 0, 0, 0;
-  BoxQpSolution solution = solve_cold(unilateral_qp(A, Eigen::Vector2d(1, -1)));
-  ASSERT_EQ(solution.status, SolveStatus::solved);
-  EXPECT_EQ(solution.x, Eigen::VectorXd(Eigen::Vector2d(1, 0)));
-  EXPECT_EQ(solve_cold(unilateral_qp(A, Eigen::Vector2d(1, 0))).status, SolveStatus::solved);
-  EXPECT_EQ(solve_cold(unilateral_qp(A, Eigen::Vector2d(1, 1))).status, SolveStatus::infeasible);
-  BoxQp soft = unilateral_qp(A, Eigen::Vector2d(1, 1));
-  soft.upper[1] = 3;
-  solution = solve_cold(soft);
-  ASSERT_EQ(solution.status, SolveStatus::solved);
-  EXPECT_EQ(solution.x, Eigen::VectorXd(Eigen::Vector2d(1, 3))) << "all that it may, in vain";
-  const Eigen::Matrix2d nothing = Eigen::Matrix2d::Zero();
-  EXPECT_EQ(solve_cold(unilateral_qp(nothing, Eigen::Vector2d(-1, 0))).status, SolveStatus::solved);
-  EXPECT_EQ(solve_cold(unilateral_qp(nothing, Eigen::Vector2d(-1, 1))).status,
-            SolveStatus::infeasible);
 }
 
 TEST_P(EverySolver, ConvergesFromAnyStart) {

@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "tests/support/random_qp.hpp"
 
 namespace hagfish::free_rows_test {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-13;  // of sums of a few terms of size 1 to 10
 
 TEST(BoundedPart, KeepsTheGradientOfTheRowsItKeeps) {
@@ -25,32 +22,6 @@ TEST(BoundedPart, KeepsTheGradientOfTheRowsItKeeps) {
   EXPECT_LE(w.head(2).lpNorm<Eigen::Infinity>(), rounding) << "free rows are met";
   EXPECT_LE((part.reduced().A * y - part.reduced().b - w.tail(3)).lpNorm<Eigen::Infinity>(),
             rounding);
-}
-
-TEST(BoundedPart, LeavesOutRowsWithoutRoomOrMotion) {
-  BoxQp qp;
-  qp.A = Eigen::MatrixXd::Zero(3, 3);
-  qp.A.diagonal() << 1, 2, 0;
-  qp.b = Eigen::VectorXd::Ones(3);
-  qp.b[2] = -1;
-  qp.lower = Eigen::VectorXd::Zero(3);
-  qp.upper = Eigen::VectorXd::Constant(3, infinity);
-  qp.upper[1] = 0;
-  const BoundedPart part(qp);
-  EXPECT_TRUE(part.consistent());
-  ASSERT_EQ(part.reduced().b.size(), 1);
-  EXPECT_EQ(part.expand(Eigen::VectorXd::Constant(1, 5)),
-            Eigen::VectorXd(Eigen::Vector3d(5, 0, 0)));
-}
-
-TEST(SemidefiniteFactor, MeetsIndependentRows) {
-  std::mt19937 random(2);
-  const KnownQp known = known_qp(random, 20, std::vector<Role>(12, Role::bilateral), 100);
-  const SemidefiniteFactor factor(known.dual.A);
-  const Eigen::VectorXd x = factor.solve(known.dual.b);
-  EXPECT_TRUE(factor.meets(x, known.dual.b, Eigen::VectorXd::Zero(x.size())));
-  EXPECT_LE((x - known.x).cwiseQuotient(known.x).lpNorm<Eigen::Infinity>(), 1e3 * rounding)
-      << "A has a condition of about 1e3";
 }
 
 TEST(SemidefiniteFactor, SharesForceBetweenRedundantRows) {
@@ -83,18 +54,6 @@ TEST(SemidefiniteFactor, TakesRoundingForRedundancy) {
   Eigen::VectorXd idle = scale;
   idle[8] *= -1;
   EXPECT_LE(std::abs(x.cwiseProduct(scale).dot(idle)), 1e3 * rounding * idle.norm());
-}
-
-TEST(SemidefiniteFactor, TellsContradictoryRows) {
-  Eigen::Matrix2d A;
-  A << 1, 10, 10, 100;
-  const auto contradictory = [](const Eigen::Matrix2d& of, const Eigen::Vector2d& b) {
-    const SemidefiniteFactor factor(of);
-    return !factor.meets(factor.solve(b), b, Eigen::Vector2d::Zero());
-  };
-  EXPECT_TRUE(contradictory(A, {1, 10.001}));
-  EXPECT_TRUE(contradictory(Eigen::Matrix2d::Zero(), {0, 1}));
-  EXPECT_FALSE(contradictory(Eigen::Matrix2d::Identity(), {0, 0}));
 }
 
 }  // namespace hagfish::free_rows_test

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <ranges>
 
 #include "core/input/files/scene_reader.hpp"
 #include "experiments/common/scene_argument.hpp"
@@ -93,90 +92,53 @@ TEST(StressMethods, StiffContactsOfMujocoHoldLimitsThatItsOwnDoNot) {
   EXPECT_EQ(run_cell(scene, "mujoco_hard", 0.001, {}).status.outcome, Outcome::ok);
 }
 
-/// A cell of the map that once failed by the default method, and what it failed of then.
-struct MendedCell {
-  std::string name, scene;
-  double step;
-  std::vector<std::string> set;
-};
-
-void PrintTo(const MendedCell& cell, std::ostream* out) { *out << cell.name; }
-
-class MendedCells : public testing::TestWithParam<MendedCell> {};
-
-TEST_P(MendedCells, StayMended) {
-  const MendedCell& cell = GetParam();
-  const std::string scene =
-      cell.scene == "table1" ? cell.scene : (fs::path(HAGFISH_STRESS_DIR) / cell.scene).string();
-  const StressResult result = run_cell(scene, "default", cell.step, cell.set);
-  EXPECT_EQ(result.status.outcome, Outcome::ok) << result.status.message;
-}
-
-const MendedCell mended_cells[] = {
-    // Explicit Coriolis forces made energy until the body flew apart.
-    {"whip_2ms", "whip.toml", 0.002, {}},
-    {"spinning_5ms", "spinning.toml", 0.005, {}},
-    // Strands passed through each other.
-    {"closing_1000_5ms", "closing.toml", 0.005, {}},
-    {"closing_1000_20ms", "closing.toml", 0.02, {}},
-    {"pulled_knot_20ms", "pulled_knot.toml", 0.02, {}},
-    // Pushed out with the speed of a blast.
-    {"overlap_1ms", "overlap.toml", 0.001, {}},
-    {"tight_bend_2ms", "tight_bend.toml", 0.002, {}},
-    // The path between linear rows overlapped by 0.0059 and 0.0092 cm.
-    {"table1_10ms", "table1", 0.01, {}},
-    {"table1_20ms", "table1", 0.02, {}},
-    // Tightened a tangle that passed for the knot.
-    {"table1_noise", "table1", 0.005, {"start.noise_deg=0.3", "start.seed=6"}},
-};
-INSTANTIATE_TEST_SUITE_P(Stability, MendedCells, testing::ValuesIn(mended_cells),
-                         [](const auto& cell) { return cell.param.name; });
-
-/// The largest step (s) at which a scene passes by a rule with the watch off, from every one of
-/// eight starts, as it does at all lower ones from one. What lies beyond is the map's to tell
-/// (experiments/results/stability/study.sh).
+/// A long step (s) at which a scene passes by a rule with the watch off. What lies beyond, and what
+/// chance does, is the map's to tell (experiments/results/stability/study.sh). Of whole knots:
+/// knot_scenes_test.cpp.
 struct RuleCell {
   std::string method, scene;
-  double largest;
+  double step;
 };
 void PrintTo(const RuleCell& cell, std::ostream* out) { *out << cell.method << " " << cell.scene; }
 
 const RuleCell rule_cells[] = {
-    {"no_watch", "short_bodies", 0.002},   {"no_watch", "pulled_knot", 0.002},
-    {"no_watch", "knot_into_head", 0.005}, {"no_watch", "parallel", 0.001},
-    {"no_watch", "table1", 0.005},         {"no_watch", "stiff_joints", 0.05},
-    {"no_watch", "stiff_tip", 0.05},       {"no_watch", "coil", 0.05},
-    {"no_watch", "mass_ratio", 0.05},      {"no_watch", "overlap", 0.05},
-    {"no_watch", "redundant", 0.05},       {"no_watch", "tight_limits", 0.01},
-    {"midpoint", "whip", 0.002},           {"midpoint", "spinning", 0.01},
-    {"midpoint", "tight_bend", 0.002},     {"midpoint", "short_bodies", 0.02},
-    {"midpoint", "pulled_knot", 0.01},     {"midpoint", "knot_into_head", 0.02},
-    {"midpoint", "parallel", 0.02},        {"midpoint", "table1", 0.01},
-    {"midpoint", "stiff_joints", 0.05},    {"midpoint", "stiff_tip", 0.02},
-    {"midpoint", "closing", 0.0005},       {"midpoint", "coil", 0.05},
-    {"midpoint", "mass_ratio", 0.05},      {"midpoint", "overlap", 0.05},
-    {"midpoint", "redundant", 0.05},       {"midpoint", "tight_limits", 0.02},
+    {"no_watch", "short_bodies", 0.002},
+    {"no_watch", "pulled_knot", 0.002},
+    {"no_watch", "knot_into_head", 0.005},
+    {"no_watch", "parallel", 0.001},
+    {"no_watch", "stiff_joints", 0.05},
+    {"no_watch", "stiff_tip", 0.05},
+    {"no_watch", "coil", 0.05},
+    {"no_watch", "mass_ratio", 0.05},
+    {"no_watch", "overlap", 0.05},
+    {"no_watch", "redundant", 0.05},
+    {"no_watch", "tight_limits", 0.01},
+    {"midpoint", "whip", 0.002},
+    {"midpoint", "spinning", 0.01},
+    {"midpoint", "tight_bend", 0.002},
+    {"midpoint", "short_bodies", 0.02},
+    {"midpoint", "pulled_knot", 0.01},
+    {"midpoint", "knot_into_head", 0.02},
+    {"midpoint", "parallel", 0.02},
+    {"midpoint", "stiff_joints", 0.05},
+    {"midpoint", "stiff_tip", 0.02},
+    {"midpoint", "closing", 0.0005},
+    {"midpoint", "coil", 0.05},
+    {"midpoint", "mass_ratio", 0.05},
+    {"midpoint", "overlap", 0.05},
+    {"midpoint", "redundant", 0.05},
+    {"midpoint", "tight_limits", 0.02},
 };
 class RuleCells : public testing::TestWithParam<RuleCell> {};
 
-TEST_P(RuleCells, PassWithoutTheWatchAsFarAsReadmeSays) {
-  const RuleCell& cell = GetParam();
-  const std::string scene = cell.scene == "table1"
-                                ? cell.scene
-                                : (fs::path(HAGFISH_STRESS_DIR) / (cell.scene + ".toml")).string();
-  const auto passes = [&](double step, int starts) {
-    return std::ranges::all_of(std::views::iota(1, starts + 1), [&](int seed) {
-      const StressResult result = run_cell(
-          scene, cell.method, step, {"start.noise_deg=1e-4", "start.seed=" + std::to_string(seed)});
-      return result.status.outcome == Outcome::ok;
-    });
-  };
-  for (const double step : {0.001, 0.002, 0.005, 0.01, 0.02}) {
-    if (step < cell.largest) {
-      EXPECT_TRUE(passes(step, 1)) << step;
-    }
+TEST_P(RuleCells, PassWithoutTheWatch) {
+  const auto& [method, scene, step] = GetParam();
+  for (const char* seed : {"1", "2"}) {
+    const StressResult result =
+        run_cell((fs::path(HAGFISH_STRESS_DIR) / (scene + ".toml")).string(), method, step,
+                 {"start.noise_deg=1e-4", std::string("start.seed=") + seed});
+    EXPECT_EQ(result.status.outcome, Outcome::ok) << seed << ": " << result.status.message;
   }
-  EXPECT_TRUE(passes(cell.largest, 8));
 }
 INSTANTIATE_TEST_SUITE_P(Stability, RuleCells, testing::ValuesIn(rule_cells), [](const auto& cell) {
   return cell.param.method + "_" + cell.param.scene;

@@ -48,25 +48,6 @@ TEST(Bend, IsTheAngleBetweenTheBodies) {
   }
 }
 
-TEST(Bend, SlopeIsThatOfTheKinematics) {
-  const Model model = cone_hagfish(2);
-  State state = rest_state(model);
-  Random random(2);
-  for (int k = 0; k < 100; ++k) {
-    const Eigen::Vector2d angles = random_angles(random);
-    const double e = 1e-5;
-    for (int i = 0; i < 2; ++i) {
-      const auto at = [&](double step) {
-        state.q.tail<2>() = angles + step * Eigen::Vector2d::Unit(i);
-        return angle_of(model, state.q, 1);
-      };
-      // Rounding over 1e-5, and its square times the third derivative, which is 1 / θ² at most.
-      EXPECT_NEAR(total_bend(angles[0], angles[1]).slope[i], (at(e) - at(-e)) / (2 * e),
-                  1e-10 * (1 + 1 / angles.squaredNorm()));
-    }
-  }
-}
-
 TEST(Bend, IsWellBehavedWhereTheJointIsStraight) {
   EXPECT_EQ(total_bend(0, 0).angle, 0);
   EXPECT_EQ(total_bend(0, 0).slope, Eigen::Vector2d::Zero());

@@ -40,35 +40,6 @@ TEST(Dynamics, KineticEnergyIsThatOfTheBodiesAndOfTheMassMatrix) {
   }
 }
 
-// RedMax: J' (M_m J̇ q̇ + gyroscopic wrench), with J̇ by differences of J, each body about its own
-// centre in world axes: no spatial algebra about a shared point.
-TEST(Dynamics, BiasIsRedMaxs) {
-  Random random(43);
-  for (int trial = 0; trial < 10; ++trial) {
-    const Model model = random_chain(random, 10);
-    const State state = random_state(random, model, 1, 2);
-    const Kinematics now = kinematics(model, state);
-    const Kinematics after = kinematics(model, {advance(state.q, state.qdot, step), state.qdot});
-    const Kinematics before = kinematics(model, {advance(state.q, state.qdot, -step), state.qdot});
-    Eigen::VectorXd expected = Eigen::VectorXd::Zero(model.nv());
-    for (int b = 0; b < model.body_count(); ++b) {
-      const Eigen::Matrix3Xd turning = body_jacobian(model, now, b).topRows<3>();
-      const Eigen::Vector3d alpha = (body_jacobian(model, after, b).topRows<3>() -
-                                     body_jacobian(model, before, b).topRows<3>()) *
-                                    state.qdot / (2 * step);
-      const Eigen::Vector3d acceleration =
-          (centre_jacobian(model, after, b) - centre_jacobian(model, before, b)) * state.qdot /
-          (2 * step);
-      const Eigen::Matrix3d inertia =
-          now.rotation[b] * model.bodies[b].inertia.asDiagonal() * now.rotation[b].transpose();
-      const Eigen::Vector3d omega = turning * state.qdot;
-      expected += turning.transpose() * (inertia * alpha + omega.cross(inertia * omega)) +
-                  centre_jacobian(model, now, b).transpose() * model.bodies[b].mass * acceleration;
-    }
-    EXPECT_LT(relative_error(bias_force(model, state), expected), difference_tolerance);
-  }
-}
-
 TEST(Dynamics, KineticEnergiesOfAStateAreThoseOfItsKinematics) {
   Random random(13);
   const Model model = random_chain(random, 12);
@@ -127,46 +98,6 @@ TEST(Dynamics, DragIsItsIntegralAlongTheBody) {
       expected += weight / 6 * length * wrench_of_force(force, offset);
     }
     EXPECT_LT(relative_error(drag_operator(model, kin, b) * twist, expected), 1e-13);
-  }
-}
-
-/// Total drag wrench about the middle of a straight fish that moves as one with `twist` there.
-Vector6d straight_drag(int bodies, const Eigen::Vector3d& velocity, const Eigen::Vector3d& omega) {
-  const Model fish = table1_hagfish(bodies);
-  const Kinematics kin = kinematics(fish, rest_state(fish));
-  const Eigen::Vector3d middle = Eigen::Vector3d(21.2, 0, 0) - kin.reference;
-  Vector6d twist;
-  twist << omega, velocity - omega.cross(middle);
-  Vector6d total = Vector6d::Zero();
-  for (int b = 0; b < bodies; ++b) {
-    total += drag_operator(fish, kin, b) * twist;
-  }
-  total.head<3>() -= middle.cross(Eigen::Vector3d(total.tail<3>()));
-  return total;
-}
-
-TEST(Dynamics, DragOfAStraightFishDoesNotDependOnTheBodyCount) {
-  const Eigen::Vector3d velocity(1.5, -0.7, 2);
-  const Eigen::Vector3d omega(0.3, 0.9, -0.4);
-  Vector6d expected;  // normal, tangential drag and ∫ x² dx over 42.4 cm
-  const double turning = 9.434 * 42.4 * 42.4 * 42.4 / 12;
-  expected << 0, turning * omega.y(), turning * omega.z(), 2.358 * 42.4 * velocity.x(),
-      9.434 * 42.4 * velocity.y(), 9.434 * 42.4 * velocity.z();
-  for (const int n : {2, 3, 10, 99, 100, 400}) {
-    // The moment is a difference of sums over 400 bodies about another point.
-    EXPECT_LT(relative_error(straight_drag(n, velocity, omega), expected), rounding) << n;
-  }
-}
-
-TEST(Dynamics, EnergyOfOneCurvatureDoesNotDependOnTheBodyCount) {
-  const double curvature = 0.05;
-  const double twist = 0.01;
-  for (const int n : {3, 4, 5, 10, 51, 99, 100, 400}) {
-    const Model fish = table1_hagfish(n);
-    const double bent = elastic_energy(fish, bent_state(fish, curvature, 2 * curvature).q);
-    EXPECT_NEAR(bent / (0.5 * 424 * 5 * curvature * curvature * 42.4), 1, rounding) << n;
-    const double twisted = elastic_energy(fish, bent_state(fish, 0, 0, twist).q);
-    EXPECT_NEAR(twisted / (0.5 * 424 * twist * twist * 42.4), 1, rounding) << n;
   }
 }
 

@@ -12,10 +12,6 @@ namespace hagfish::kinematics_test {
 constexpr double step = 1e-5;
 constexpr double difference_tolerance = 1e-7;
 
-Eigen::Matrix3d rotation_about(Axis axis, double angle) {
-  return Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(static_cast<int>(axis))).toRotationMatrix();
-}
-
 Kinematics at(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& qdot) {
   return kinematics(model, {q, qdot});
 }
@@ -36,29 +32,6 @@ Matrix6Xd difference_twists(const Model& model, const State& state, const Eigen:
     twists.col(b) << omega, velocity + omega.cross(reference - now.centre.col(b));
   }
   return twists;
-}
-
-TEST(Kinematics, HingesTurnInTheirOrder) {
-  Random random(21);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Model model = random_chain(random, 8);
-    const State state = random_state(random, model, 1);
-    const Kinematics kin = kinematics(model, state);
-    Eigen::Matrix3d frame = root_orientation(state.q).toRotationMatrix();
-    Eigen::Vector3d origin = state.q.head<3>();
-    for (int b = 0; b < model.body_count(); ++b) {
-      for (int k = std::max(6, model.bodies[b].first_dof);
-           k < model.bodies[b].first_dof + model.bodies[b].dofs; ++k) {
-        frame = frame * rotation_about(model.hinges[k - 6].axis, state.q[k + 1]);
-      }
-      const Eigen::Vector3d along = model.bodies[b].length * frame.col(0);
-      // A dozen products of rotations: a dozen roundings.
-      EXPECT_LT(relative_error(kin.rotation[b], frame), 1e-14);
-      EXPECT_LT(relative_error(kin.origin.col(b), origin), 1e-14);
-      EXPECT_LT(relative_error(kin.centre.col(b), origin + 0.5 * along), 1e-14);
-      origin += along;
-    }
-  }
 }
 
 TEST(Kinematics, ReferenceIsTheMiddleBody) {

@@ -42,27 +42,6 @@ TEST(Start, EachHingeTakesTheShareOfTheBodyThatItStandsFor) {
   }
 }
 
-TEST(Start, OneCurvatureTurnsTheTailByItsWholeLength) {
-  ResolvedScene resolved = stored_scene();
-  resolved.scene.model.limit_scale = 10;
-  for (const int n : {3, 4, 7, 50, 99, 100}) {
-    resolved.scene.model.bodies = n;
-    const Model fish = make_hagfish(resolved.specimen, resolved.scene);
-    for (int axis = 0; axis < 3; ++axis) {
-      StartSettings settings;
-      Eigen::Vector4d bend = Eigen::Vector4d::Zero();  // station, then the curvatures
-      bend[1 + axis] = 0.01;                           // rad / cm
-      settings.bend = {bend};
-      settings.bend_rate = {bend};
-      const State state = start_state(fish, settings);
-      const auto hinges = static_cast<Eigen::Index>(fish.hinges.size());
-      // A hundred roundings of a sum below 1.
-      EXPECT_NEAR(state.q.tail(hinges).sum(), 0.01 * 42.4, 1e-14) << n << " about " << axis;
-      EXPECT_NEAR(state.qdot.tail(hinges).sum(), 0.01 * 42.4, 1e-14) << n << " about " << axis;
-    }
-  }
-}
-
 TEST(Start, BendsStopAtTheLimits) {
   const Model fish = table1_hagfish();
   StartSettings settings;

@@ -6,16 +6,6 @@
 
 namespace hagfish::state_test {
 
-TEST(State, RestIsStraightFromTheOrigin) {
-  const Model fish = table1_hagfish();
-  const State state = rest_state(fish);
-  ASSERT_EQ(state.q.size(), fish.nq());
-  ASSERT_EQ(state.qdot.size(), fish.nv());
-  EXPECT_EQ(state.q[3], 1);
-  EXPECT_EQ(state.q.lpNorm<1>(), 1);
-  EXPECT_EQ(state.qdot.lpNorm<1>(), 0);
-}
-
 TEST(State, AdvanceMovesCoordinatesByTheirVelocities) {
   Random random(11);
   const Model model = random_chain(random, 6);

@@ -102,9 +102,6 @@ class ControllerTest : public testing::Test {
     }
     return "none";
   }
-
-  double first() const { return state.ends.first->arc_a; }
-  double last() const { return state.ends.last->arc_b; }
 };
 
 }  // namespace hagfish

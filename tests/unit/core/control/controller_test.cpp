@@ -60,12 +60,6 @@ TEST_F(Controller, TightensOnceTiedWithEnoughTailThrough) {
   EXPECT_EQ(control.thigmotaxis[1].speed.b, 2);
 }
 
-TEST_F(Controller, DoesNotTightenAnUnknot) {
-  tie(false);
-  step({contact(5, 30)});
-  EXPECT_EQ(state.phase, Phase::form);
-}
-
 TEST_F(Controller, LooksAtTheKnotOnlyNowAndThen) {
   tie(false);
   step({contact(5, 30)});  // checks the knot, and again in 10 ms

@@ -96,11 +96,6 @@ TEST(Script, NoiseMovesTheKnots) {
   }
 }
 
-TEST(Script, EndsAtItsLastKnot) {
-  EXPECT_EQ(script_end(force), 3);
-  EXPECT_EQ(script_end({}), 0);
-}
-
 TEST(ScriptForce, IsNoneWithoutAScript) {
   const TipForce tip = script_force({}, 1, steps_of(0.002), {1, 2, 3}, {4, 5, 6});
   EXPECT_EQ(tip.value, Vector3d::Zero());

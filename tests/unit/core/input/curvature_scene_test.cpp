@@ -46,20 +46,6 @@ TEST(CurvatureScene, ReadsATableOrAFileBesideTheScene) {
   expect_program(read_scene(other).scene.script.curvature);
 }
 
-TEST(CurvatureScene, IsWrittenAsItIs) {
-  for (const std::string more : {"", "mirror = true\n"}) {
-    const ResolvedScene scene =
-        read_scene_text(more + table + active + plain_scene, "s", {"script.noise=0.1"});
-    const std::string text = scene_to_toml(scene.scene, scene.specimen);
-    const ResolvedScene again = read_scene_text(text, "again");
-    EXPECT_EQ(scene_to_toml(again.scene, again.specimen), text);
-    for (std::size_t k = 0; k < 2; ++k) {
-      EXPECT_EQ(again.scene.script.curvature.value[k], scene.scene.script.curvature.value[k]);
-      EXPECT_EQ(again.scene.script.curvature.noise[k], scene.scene.script.curvature.noise[k]);
-    }
-  }
-}
-
 TEST(CurvatureScene, NoiseIsDrawnByItsSeed) {
   const auto noise = [](const std::string& seed) {
     return program_of(table, {"script.noise=0.5", "script.noise_seed=" + seed}).noise;
@@ -71,15 +57,6 @@ TEST(CurvatureScene, NoiseIsDrawnByItsSeed) {
   for (const Eigen::Matrix3Xd& at : noise("3")) sum += at.squaredNorm();
   // 18 draws: a standard deviation of 0.5 is off by a third at most, two in three times.
   EXPECT_NEAR(std::sqrt(sum / 18), 0.5, 0.25);
-}
-
-TEST(CurvatureScene, TheMirrorImageTurnsTheOtherWayAboutXAndZ) {
-  const CurvatureProgram plain = program_of(table);
-  const CurvatureProgram image = program_of("mirror = true\n" + table);
-  for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_EQ(image.value[k].row(0), plain.value[k].row(0));
-    EXPECT_EQ(image.value[k].bottomRows<2>(), -plain.value[k].bottomRows<2>());
-  }
 }
 
 TEST(CurvatureScene, BuiltInProgramsAreNoLargerThanTheirRounding) {

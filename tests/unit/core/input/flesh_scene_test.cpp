@@ -23,19 +23,6 @@ std::string complaint(const std::string& more) {
   return error_of([&] { read_scene_text(more + plain_scene + tissue, "s.toml"); });
 }
 
-TEST(FleshScene, IsReadAndWritten) {
-  const ResolvedScene read = read_scene_text(flesh + plain_scene + tissue, "s.toml");
-  EXPECT_EQ(read.scene.flesh.stiffness, 1e5);
-  EXPECT_EQ(read.scene.flesh.relaxation, 0.015);
-  EXPECT_EQ(read.scene.flesh.spacing, 0.2);
-  EXPECT_EQ(read.specimen.flesh.least_area, 0.75);
-  const ResolvedScene again =
-      read_scene_text(scene_to_toml(read.scene, read.specimen), "again.toml");
-  EXPECT_EQ(again.scene.flesh.stiffness, 1e5);
-  EXPECT_EQ(again.specimen.flesh.least_area, 0.75);
-  EXPECT_FALSE(read_scene_text(plain_scene, "s.toml").scene.flesh.present());
-}
-
 TEST(FleshScene, NeedsRelaxationAndSpacing) {
   EXPECT_EQ(complaint("[flesh]\nstiffness = 1e5\nspacing = 0.2\n"),
             "s.toml: flesh.relaxation: must be positive where flesh.stiffness is");

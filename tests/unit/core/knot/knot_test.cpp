@@ -70,14 +70,6 @@ INSTANTIATE_TEST_SUITE_P(Hagfish, NamedKnots, testing::ValuesIn(named_knots()),
                            return "knot_" + knot.param.name + "_" + std::to_string(knot.index);
                          });
 
-TEST_P(NamedKnots, ClosedPolygonFromEveryDirection) {
-  for (int k = 0; k < 50; ++k) {
-    EXPECT_EQ(invariants_of_closed(polygon(), random_vector(random)), type());
-  }
-}
-
-TEST_P(NamedKnots, HasItsName) { EXPECT_EQ(knot_name(type()), GetParam().name); }
-
 TEST_P(NamedKnots, OpenCurveIsUnanimous) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     const KnotVote vote = knot_type(opened(polygon()), {.votes = 15, .seed = seed});
@@ -108,18 +100,6 @@ TEST_P(NamedKnots, InvariantUnderSmallPerturbation) {
         0.02 * random_polygon(static_cast<int>(polygon().cols()), random);
     EXPECT_EQ(invariants_of_closed(polygon() + noise, random_vector(random)), type());
   }
-}
-
-TEST(Knot, CompositeOfTwoTrefoils) {
-  std::mt19937 random(1);
-  for (int k = 0; k < 20; ++k) {  // granny and square knot: determinants multiply, v2 adds up
-    const KnotInvariants expected{9, 2};
-    const Eigen::Vector3d sight = random_vector(random);
-    EXPECT_EQ(invariants_of_closed(braid_closure({1, 1, 1, 2, 2, 2}, 3), sight), expected);
-    EXPECT_EQ(invariants_of_closed(braid_closure({1, 1, 1, -2, -2, -2}, 3), sight), expected);
-  }
-  EXPECT_EQ(knot_type(opened(braid_closure({1, 1, 1, 2, 2, 2}, 3)), {.votes = 15, .seed = 2}).type,
-            (KnotInvariants{9, 2}));
 }
 
 TEST(Knot, TorusKnotsOfAnySize) {
@@ -158,19 +138,6 @@ TEST(Knot, CrossingsThatCancelDoNotCount) {
     word.push_back(-1);
   }
   EXPECT_EQ(invariants_of_closed(braid_closure(word, 2), {0.1, 0.2, 1}), (KnotInvariants{3, 1}));
-}
-
-TEST(Knot, PerturbedCirclesAreUnknots) {
-  std::mt19937 random(2);
-  for (int k = 0; k < 500; ++k) {
-    // Its plan stays star-shaped, hence without crossings, however far out of plane it goes.
-    const Eigen::Matrix3Xd circle = sample(40, 0, 2 * pi, [&](double t) {
-      const double r = uniform(random, 0.3, 1);
-      const double z = uniform(random, -2, 2);
-      return Eigen::Vector3d(r * std::cos(t), r * std::sin(t), z);
-    });
-    EXPECT_EQ(invariants_of_closed(circle, random_vector(random)), unknot);
-  }
 }
 
 TEST(Knot, RandomPolygonsLookTheSameFromEveryDirection) {

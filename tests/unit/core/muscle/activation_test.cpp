@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "tests/support/muscled_hagfish.hpp"
@@ -63,25 +62,6 @@ TEST_F(Activations, AreTheLeastThatGiveTheTorque) {
     } else if (size == 1e6) {
       EXPECT_GT(effort.residual.norm(), size);
     }
-  }
-}
-
-/// A pair alone: a of the one that pulls the right way is torque over R F, the other is 0.
-TEST_F(Activations, OfAPairOneIsActive) {
-  kin = kinematics(model, rest_state(model));
-  Eigen::VectorXd torque = Eigen::VectorXd::Zero(model.nv());
-  solve(torque);
-  EXPECT_TRUE(effort.activation.isZero(1e-15));
-  const int family = 6 * 15 + 4;  // j32, right-handed and left-handed
-  const int dof = model.bodies[32].first_dof;
-  for (const double share : {0.3, -0.7, 1.5}) {
-    torque[dof] = share * gives(family)[0];
-    solve(torque);
-    const int active = share > 0 ? family : family + 1;
-    EXPECT_NEAR(effort.activation[active], std::min(std::abs(share), 1.0), 1e-5);
-    EXPECT_NEAR(effort.activation[2 * family + 1 - active], 0, 1e-15);
-    const double missing = std::max(std::abs(share) - 1, 0.0) * std::abs(torque[dof] / share);
-    EXPECT_NEAR(std::abs(effort.residual[dof]), missing, 1e-5 * std::abs(torque[dof]));
   }
 }
 

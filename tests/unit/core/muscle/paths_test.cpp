@@ -41,24 +41,6 @@ TEST(MusclePaths, MomentArmsAreWhatLengthsLose) {
   }
 }
 
-TEST(MusclePaths, NoOtherJointChangesALength) {
-  const Model model = muscled_hagfish();
-  Random random(2);
-  const State state = random_state(random, model, 0.3);
-  State other = state;
-  const int hinge = 61;
-  other.q[root_dofs + 1 + hinge] += 0.2;
-  const Kinematics now = kinematics(model, state), then = kinematics(model, other);
-  for (const Muscle& muscle : model.muscles) {
-    const double change = muscle_length(then, muscle) - muscle_length(now, muscle);
-    if (muscle.body == model.hinges[hinge].body) {
-      EXPECT_GT(std::abs(change), 0.01) << muscle.name;
-    } else {
-      EXPECT_NEAR(change, 0, 1e-12) << muscle.name;
-    }
-  }
-}
-
 /// Straight, lines have the share of the radius as arm, families the sine of their fibres' angle of
 /// it, but for the chord; antagonists have opposite arms, and bend or twist alone.
 TEST(MusclePaths, OfAStraightBodyAreThoseOfTheSpecimen) {
@@ -98,31 +80,6 @@ TEST(MusclePaths, OfAStraightBodyAreThoseOfTheSpecimen) {
   // 0.5 cm^2 of 100 kPa near the station that has them.
   ASSERT_EQ(model.muscles[6 * 10].name, "j21_left");
   EXPECT_NEAR(model.muscles[6 * 10].force, 0.5e6, 5e3);
-}
-
-TEST(MusclePaths, TorqueIsTheSumOfArmsTimesForces) {
-  const Model model = muscled_hagfish();
-  Random random(3);
-  const State state = random_state(random, model, 0.4);
-  const Kinematics kin = kinematics(model, state);
-  Eigen::VectorXd activation(model.muscles.size());
-  for (double& a : activation) a = uniform(random, 0, 1);
-  Eigen::VectorXd torque;
-  muscle_torque(model, kin, activation, torque);
-  EXPECT_TRUE(torque.head<root_dofs>().isZero(0));
-  // Virtual work: u' dq = -sum a F dl along any motion of the hinges.
-  const Eigen::VectorXd v = random_entries(random, model.nv());
-  const auto lengths = [&](double t) {
-    const Kinematics there = kinematics(model, {advance(state.q, v, t), v});
-    double sum = 0;
-    for (std::size_t m = 0; m < model.muscles.size(); ++m) {
-      const Muscle& muscle = model.muscles[m];
-      sum += activation[static_cast<Eigen::Index>(m)] * muscle.force * muscle_length(there, muscle);
-    }
-    return sum;
-  };
-  const double work = -(lengths(turn) - lengths(-turn)) / (2 * turn);
-  EXPECT_NEAR(torque.dot(v), work, 1e-7 * torque.cwiseProduct(v).cwiseAbs().sum());
 }
 
 }  // namespace hagfish::paths_test

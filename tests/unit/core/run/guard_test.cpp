@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "core/run/simulation.hpp"
 #include "core/step/look_ahead.hpp"
@@ -215,35 +214,25 @@ TEST(Guard, TellsOfARowThatStaysAtItsCapAndWhatHoldsItBack) {
 }
 
 TEST(Guard, TellsWhyARowIsAtItsCap) {
-  const auto warning = [](const std::function<void(CappedRow&)>& change) {
-    CappedRow capped;
-    change(capped);
-    for (const double time : {0.0, 0.2}) capped.look(time);
-    return capped.warnings.at(0);
-  };
   // One other row alone holds the second back, by whichever sign works against it.
-  const auto alone = [](CappedRow& capped, Eigen::Index other) {
-    capped.step.lambda.setZero();
-    capped.step.lambda[1] = capped.step.rows[1].upper;
-    const Eigen::MatrixXd A =
-        whole_dual(capped.model, capped.now.kin, capped.step.system, capped.step.rows).A;
-    capped.step.lambda[other] = A(1, other) < 0 ? 1 : -1;
-  };
-  for (const Eigen::Index other : {0, 3, 4}) {
-    expect_told(warning([&](CappedRow& capped) { alone(capped, other); }));
+  const std::tuple<Eigen::Index, bool, const char*> causes[] = {
+      {0, false, "it cannot have both speeds"},
+      {0, false, "controller.eq6_slip"},
+      {3, false, "try a lower speed or a higher cap"},
+      {4, false, "joint limits block the motion"},
+      {4, true, "an obstacle is in the way"}};
+  for (const auto& [other, plate, told] : causes) {
+    CappedRow capped;
+    StepSolution& step = capped.step;
+    if (plate) step.rows[4] = plane_row({0, *capped.model.obstacles[0].plane(), 30, 0});
+    step.lambda.setZero();
+    step.lambda[1] = step.rows[1].upper;
+    const Eigen::MatrixXd A = whole_dual(capped.model, capped.now.kin, step.system, step.rows).A;
+    step.lambda[other] = A(1, other) < 0 ? 1 : -1;
+    for (const double time : {0.0, 0.2}) capped.look(time);
+    expect_told(capped.warnings.at(0));
+    EXPECT_NE(capped.warnings[0].find(told), std::string::npos) << capped.warnings[0];
   }
-  const std::string sides = warning([&](CappedRow& capped) { alone(capped, 0); });
-  EXPECT_NE(sides.find("it cannot have both speeds"), std::string::npos) << sides;
-  EXPECT_NE(sides.find("controller.eq6_slip"), std::string::npos) << sides;
-  const std::string end = warning([&](CappedRow& capped) { alone(capped, 3); });
-  EXPECT_NE(end.find("try a lower speed or a higher cap"), std::string::npos) << end;
-  const std::string limits = warning([&](CappedRow& capped) { alone(capped, 4); });
-  EXPECT_NE(limits.find("joint limits block the motion"), std::string::npos) << limits;
-  const std::string plate = warning([&](CappedRow& capped) {
-    capped.step.rows[4] = plane_row({0, *capped.model.obstacles[0].plane(), 30, 0});
-    alone(capped, 4);
-  });
-  EXPECT_NE(plate.find("an obstacle is in the way"), std::string::npos) << plate;
 }
 
 TEST(Guard, ARowBelowItsCapForAStepStartsAnew) {

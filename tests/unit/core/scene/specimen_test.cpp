@@ -8,21 +8,6 @@
 
 namespace hagfish::specimen_test {
 
-TEST(Profile, IsLinearBetweenStationsAndConstantOutside) {
-  const std::vector<double> station = {0.25, 0.5, 0.75}, value = {1, 3, -1};
-  EXPECT_EQ(profile(station, value, 0.0), 1);
-  EXPECT_EQ(profile(station, value, 0.25), 1);
-  EXPECT_EQ(profile(station, value, 0.375), 2);
-  EXPECT_EQ(profile(station, value, 0.5), 3);
-  EXPECT_EQ(profile(station, value, 0.625), 1);
-  EXPECT_EQ(profile(station, value, 0.75), -1);
-  EXPECT_EQ(profile(station, value, 1.0), -1);
-}
-
-TEST(Profile, OfOneStationIsConstant) {
-  for (const double fraction : {0.0, 0.5, 1.0}) EXPECT_EQ(profile({0.5}, {4}, fraction), 4);
-}
-
 TEST(Specimen, PacificHagfishIsTable1) {
   const Specimen s = read_specimen(HAGFISH_DATA_DIR "/specimens/pacific_hagfish.toml");
   EXPECT_EQ(s.length, 42.4);

@@ -193,54 +193,6 @@ TEST(Midpoint, HoldsTheWhip) {
   EXPECT_LT(std::abs(ledger.imbalance()), 1e-10 * ledger.initial);
 }
 
-/// Angular and linear momentum about the world's origin.
-Vector6d momentum(const Model& model, const State& state) {
-  Kinematics kin;
-  update_positions(model, state.q, kin);
-  update_velocities(model, state.qdot, kin);
-  Vector6d sum = Vector6d::Zero();
-  for (int b = 0; b < model.body_count(); ++b) {
-    sum += body_inertia(model, kin, b) * kin.twist.col(b);
-  }
-  sum.head<3>() += kin.reference.cross(sum.tail<3>());  // bodies' twists are about that
-  return sum;
-}
-
-/// Largest change of the momentum of a free body without drag, that spins with its middle bent to
-/// near 90 degrees, over the momentum it has, in 2 s of steps of `h`: angular, linear.
-Eigen::Vector2d lost_momentum(const std::string& rule, double h) {
-  const ResolvedScene resolved = read_scene(
-      HAGFISH_STRESS_DIR "/spinning.toml",
-      {"time.rule=" + rule, "time.step=" + std::to_string(h), "drag.normal=0", "drag.tangential=0",
-       "guard.energy_action=warn", "start.spin=[1,0.5,0.2]", "time.momentum=rule"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Simulation sim = start(model, resolved.scene, "active-set");
-  const Vector6d begin = momentum(model, sim.now.state);
-  Eigen::Vector2d worst(0, 0);
-  StepRecord record;
-  while (time_of(sim, resolved.scene) < 2) {
-    take_step(model, resolved.scene, sim, record);
-    const Vector6d off = momentum(model, sim.now.state) - begin;
-    worst = worst.cwiseMax(Eigen::Vector2d(off.head<3>().norm() / begin.head<3>().norm(),
-                                           off.tail<3>().norm() / begin.tail<3>().norm()));
-  }
-  return worst;
-}
-
-// The rule as it is conserves neither exactly, but to second order; Euler's to first.
-TEST(Midpoint, ConservesMomentumToSecondOrder) {
-  const Eigen::Vector2d coarse = lost_momentum("midpoint", 0.002);
-  const Eigen::Vector2d fine = lost_momentum("midpoint", 0.001);
-  const Eigen::Vector2d euler = lost_momentum("euler", 0.001);
-  for (int k = 0; k < 2; ++k) {
-    std::cout << "[ FIGURE   ] " << (k == 0 ? "angular" : "linear") << " momentum lost: midpoint "
-              << coarse[k] << " at 2 ms, " << fine[k] << " at 1 ms; Euler " << euler[k]
-              << " at 1 ms\n";
-    EXPECT_LT(fine[k], coarse[k] / 3.2) << k;  // 4 in the limit
-    EXPECT_LT(fine[k], 0.1 * euler[k]) << k;
-  }
-}
-
 /// The largest difference of a step's velocity from that of more passes, over time.settled, in
 /// `duration` (s) of a stress scene at 2 ms; and the passes of a step, by the rule and by as many
 /// as it takes.

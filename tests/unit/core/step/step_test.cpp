@@ -77,13 +77,6 @@ TEST(Step, TakesActiveTorquesImplicitly) {
   }
 }
 
-TEST(Step, IsAQuadraticProgramWhereARowCanBind) {
-  Stage s = knotted(91, 0.5);
-  const StepSolution step = s.solve();
-  EXPECT_EQ(step.kind, SolveKind::qp);
-  EXPECT_GT(step.iterations, 1);
-}
-
 TEST(Step, IsOptimalAtEveryStepSize) {
   for (const double h : {5e-4, 2e-3, 1e-2, 5e-2}) {
     for (const unsigned seed : {92U, 93U, 94U}) {
@@ -134,53 +127,12 @@ TEST(Step, ForcesByKindAddUpToTheRows) {
   }
 }
 
-TEST(Step, NoForceBehindTheLastContact) {
-  Stage s = knotted(97, 1);
-  for (ThigmotaxisCommand& command : s.control.thigmotaxis) command.speed = {50, 50};
-  const StepSolution step = s.solve();
-  int last = 0;
-  for (const Row& row : step.rows) {
-    if (row.kind != RowKind::contact && row.kind != RowKind::thigmotaxis) continue;
-    const auto& [direction, a, b, at, couple] = row.points();
-    last = std::max({last, a.first + a.count - 1, b.first + b.count - 1});
-  }
-  ASSERT_LT(last, 99);
-  const Eigen::Index behind = s.model.nv() - s.model.bodies[last + 1].first_dof;
-  EXPECT_GT(step.force[RowKind::thigmotaxis].lpNorm<Eigen::Infinity>(), 0);
-  EXPECT_EQ(step.force[RowKind::contact].tail(behind), Eigen::VectorXd::Zero(behind));  // exactly
-  EXPECT_EQ(step.force[RowKind::thigmotaxis].tail(behind), Eigen::VectorXd::Zero(behind));
-}
-
 TEST(Step, StationarityStaysSmallWhereTheClampHardlyPulls) {
   // Across a straight body a pull at the tail hardly reaches the head: its force is 1e-40 dyn, and
   // what rounding leaves of H q̇ is larger.
   Stage s;
   s.control.tip.value << 0, 1, 0;
   EXPECT_LE(s.solve().stationarity, 1e-9);
-}
-
-TEST(Step, ClampKeepsTheHeadInPlace) {
-  Stage s = knotted(98, 1);
-  s.control.thigmotaxis.clear();
-  for (int k = 0; k < 25; ++k) {
-    const StepSolution step = s.solve();
-    s.state.qdot = step.qdot;
-    s.state.q = advance(s.state.q, step.qdot, s.scene.time.step);
-    // What the solver leaves of the head's velocity, 1e-8 of the largest, over 25 steps of 2 ms.
-    EXPECT_LT(head_drift(s.model, kinematics(s.model, s.state)), 1e-8) << k;
-  }
-}
-
-TEST(Step, ClampTakesADriftBack) {
-  Stage s;
-  s.state.q[1] = 1e-3;
-  s.state.q[5] = 5e-4;  // half the sine of a turn about Y
-  s.state.q.segment<4>(3).normalize();
-  const double start = head_drift(s.model, kinematics(s.model, s.state));
-  const StepSolution step = s.solve();
-  s.state.q = advance(s.state.q, step.qdot, s.scene.time.step);
-  // A share of 0.5 of both; the sine of a turn of 1e-3 is off by 1e-7 of it.
-  EXPECT_NEAR(head_drift(s.model, kinematics(s.model, s.state)) / start, 0.5, 1e-5);
 }
 
 }  // namespace hagfish::step_test

@@ -19,13 +19,6 @@ void leave(WarmStart& warm, const std::vector<std::pair<RowId, double>>& multipl
   warm.end();
 }
 
-TEST(WarmStart, HasNothingAtFirst) {
-  const WarmStart warm;
-  EXPECT_EQ(warm.size(), 0u);
-  EXPECT_EQ(warm.find({}), nullptr);
-  EXPECT_EQ(warm.multiplier({}), 0);
-}
-
 TEST(WarmStart, FindsRowsByIdInWhateverOrderTheyCame) {
   WarmStart warm;
   const RowId upper{.of = RowId::Of::upper, .first = 7}, cone{.of = RowId::Of::cone, .first = 7},

@@ -73,13 +73,10 @@ TEST(AuditOfFlesh, ForcesAndEnergyAreWatched) {
   EXPECT_EQ(audit_objections(file), "");
   for (const std::string path :
        {"/contacts/force", "/flesh/energy", "/flesh/overlap", "/flesh/pressure"}) {
-    const auto before =
-        rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE, [](std::vector<double>& values) {
-          for (double& value : values) value *= 1.05;
-        });
-    EXPECT_NE(audit_objections(file).find(path), std::string::npos) << path;
-    rewrite<double>(file, path, H5::PredType::NATIVE_DOUBLE,
-                    [&](std::vector<double>& values) { values = before; });
+    const std::string text = objections_while(file, path, [](std::vector<double>& values) {
+      for (double& value : values) value *= 1.05;
+    });
+    EXPECT_NE(text.find(path), std::string::npos) << path;
   }
 }
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
+#include "core/input/csv/delimited_text.hpp"
 #include "core/input/files/scene_reader.hpp"
 
 namespace hagfish::design_page_test {
@@ -26,13 +26,9 @@ DesignOutcome outcome() {
 
 /// A field of the only row, by its heading.
 std::string field(const std::string& csv, const std::string& name) {
-  std::istringstream lines(csv);
-  std::string heads, row;
-  std::getline(lines, heads);
-  std::getline(lines, row);
-  std::istringstream head(heads), value(row);
-  for (std::string one, other; std::getline(head, one, ',') && std::getline(value, other, ',');) {
-    if (one == name) return other;
+  const DelimitedText table(csv);
+  for (std::size_t k = 0; k < table.cells(0); ++k) {
+    if (table.cell(0, k) == name) return std::string(table.cell(1, k));
   }
   return "no such column";
 }

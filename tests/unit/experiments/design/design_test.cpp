@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "core/input/files/scene_reader.hpp"
 #include "core/input/files/text_file.hpp"
@@ -43,35 +44,47 @@ DesignOptions one_batch(const fs::path& folder, int threads) {
   return options;
 }
 
-TEST(Design, TriesAreTheSameWhateverTheThreadsAndStops) {
-  const TemporaryFolder folder;
-  const DesignOutcome one = design(one_batch(folder.path() / "one", 1));
+/// One batch by one thread, in the folder `one`.
+class OneBatch : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder.emplace();
+    one = design(one_batch(folder->path() / "one", 1));
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  static inline std::optional<TemporaryFolder> folder;
+  static inline DesignOutcome one;
+};
+
+TEST_F(OneBatch, TriesAreTheSameWhateverTheThreadsAndStops) {
   EXPECT_FALSE(one.found);
   EXPECT_EQ(one.tries, batch_size);
-  const std::vector<std::string> lines = sorted_lines(folder.path() / "one/tries.csv");
+  const std::vector<std::string> lines = sorted_lines(folder->path() / "one/tries.csv");
   EXPECT_EQ(lines.size(), batch_size);
 
-  design(one_batch(folder.path() / "three", 3));
-  EXPECT_EQ(sorted_lines(folder.path() / "three/tries.csv"), lines);
+  const fs::path three = folder->path() / "three";
+  design(one_batch(three, 3));
+  EXPECT_EQ(sorted_lines(three / "tries.csv"), lines);
 
   // Two lines of it are lost, one of them in part.
-  std::ofstream cut(folder.path() / "three/tries.csv");
+  std::ofstream cut(three / "tries.csv");
   for (std::size_t k = 0; k + 2 < lines.size(); ++k) cut << lines[k] << "\n";
   cut << lines.back().substr(0, lines.back().size() / 2);
   cut.close();
-  EXPECT_THROW(design(one_batch(folder.path() / "three", 1)), FileError);
-  DesignOptions again = one_batch(folder.path() / "three", 1);
+  EXPECT_THROW(design(one_batch(three, 1)), FileError);
+  DesignOptions again = one_batch(three, 1);
   again.resume = true;
-  std::ofstream(folder.path() / "three/times.csv") << "1000.0,2000.0\n3000.0,40";
+  std::ofstream(three / "times.csv") << "1000.0,2000.0\n3000.0,40";
   const DesignOutcome mended_one = design(again);
   EXPECT_EQ(mended_one.in_words(), one.in_words());
   EXPECT_GE(mended_one.time.wall, 1000);
   EXPECT_GE(mended_one.time.cpu, 2000);
   EXPECT_LT(mended_one.time.wall, 3000);
-  const std::string times = read_text_file((folder.path() / "three/times.csv").string());
+  const std::string times = read_text_file((three / "times.csv").string());
   EXPECT_TRUE(
       times.ends_with(fmt::format("\n{:.1f},{:.1f}\n", mended_one.time.wall, mended_one.time.cpu)));
-  const std::vector<std::string> mended = sorted_lines(folder.path() / "three/tries.csv");
+  const std::vector<std::string> mended = sorted_lines(three / "tries.csv");
   EXPECT_TRUE(std::ranges::includes(mended, lines));
   again.seed = 2;
   EXPECT_THROW(design(again), FileError);
@@ -79,8 +92,9 @@ TEST(Design, TriesAreTheSameWhateverTheThreadsAndStops) {
 
 TEST(Design, ForOtherAnimalsTheThickestOfTheseIsLedByTurns) {
   const TemporaryFolder folder;
-  DesignOptions options = one_batch(folder.path(), 2);
+  DesignOptions options = one_batch(folder.path(), 1);
   options.animals = true;
+  options.interrupted = [&] { return sorted_lines(folder.path() / "tries.csv").size() >= 4; };
   design(options);
   const SoftBody own = soft_body("");
   const SoftBody thickest = soft_body(other_animal(own.specimen, thickest_animal));
@@ -88,11 +102,10 @@ TEST(Design, ForOtherAnimalsTheThickestOfTheseIsLedByTurns) {
   bool differs = false;  // turns about strands do; others are laid beforehand
   for (const std::string& line : sorted_lines(folder.path() / "tries.csv")) {
     const int number = std::stoi(line);
-    if (number >= 4) continue;
     const auto path_in = [&](const SoftBody& body) {
       Draw draw(options.seed + 1, static_cast<unsigned>(number));
       const Tying tying =
-          *try_plan(body, archive.plan_of(number), options.knot, draw, options.interrupted);
+          *try_plan(body, archive.plan_of(number), options.knot, draw, [] { return false; });
       return tying_text({.seen = {}, .path = tying.path});
     };
     const std::string path =
@@ -103,12 +116,10 @@ TEST(Design, ForOtherAnimalsTheThickestOfTheseIsLedByTurns) {
   EXPECT_TRUE(differs);
 }
 
-TEST(Design, StartsFromTheTriesOfAnotherSearch) {
-  const TemporaryFolder folder;
-  design(one_batch(folder.path() / "first", 2));
-  DesignOptions options = one_batch(folder.path() / "second", 2);
+TEST_F(OneBatch, IsWhatAnotherSearchStartsFrom) {
+  DesignOptions options = one_batch(folder->path() / "second", 2);
   options.seed = 3;
-  options.start = folder.path() / "first";
+  options.start = folder->path() / "one";
   EXPECT_EQ(design(options).tries, batch_size);
   const std::vector<std::string> lines = sorted_lines(options.folder / "tries.csv");
   // Its own tries are numbered behind those; some of them go on from what was seen there.
@@ -119,8 +130,8 @@ TEST(Design, StartsFromTheTriesOfAnotherSearch) {
   options.start.clear();
   design(options);
   EXPECT_EQ(sorted_lines(options.folder / "tries.csv"), lines);
-  options = one_batch(folder.path() / "third", 2);
-  options.start = folder.path() / "none";
+  options = one_batch(folder->path() / "third", 2);
+  options.start = folder->path() / "none";
   EXPECT_THROW(design(options), FileError);
   EXPECT_FALSE(fs::exists(options.folder / "search.toml"));
 }

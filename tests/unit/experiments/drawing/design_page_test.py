@@ -50,9 +50,3 @@ def test_the_body_in_the_knot_is_that_between_its_ends_as_it_starts_to_slide():
     assert float(row["body_in_knot_diameters"]) == pytest.approx(2.25 / 0.9)
     assert design.of_log(Log(["script", "script", "script"])) == {"length_cm": "4", "body_in_knot_cm": "", "body_in_knot_diameters": ""}
 
-
-def test_the_gallery_has_of_each_knot_the_program_that_serves_most_animals():
-    row = lambda knot, found, paper, reflex: {"knot_wanted": knot, "found": found, "unseen_by_eq6": paper, "unseen_by_reflex": reflex}
-    rows = [row("3_1#3_1", "yes", "", ""), row("4_1", "yes", "3", "4"), row("4_1", "yes", "8", "9"), row("4_1", "no", "10", "10"), row("3_1", "yes", "1", "1")]
-    assert design.one_of_each(rows) == [rows[4], rows[2], rows[0]]
-    assert design.least_served(rows[1:3]) == 3

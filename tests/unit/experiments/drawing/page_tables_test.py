@@ -108,36 +108,6 @@ def test_stability_by_scene_and_start(tmp_path):
     assert read(tmp_path, "stability_starts")[1] == ["1", "2 of 2", ""]
 
 
-def pull_of(kind, value="0", seed=0, pull="", deep="no", **more):
-    return {name: "1" for name in leverage.HEAD} | {"kind": kind, "body": "living", "knot": "3_1", "value": value, "seed": str(seed), "pull_N": str(pull),
-                                                     "outcome": "pulled" if pull else "knot lost", "too_deep": deep} | more
-
-
-def test_what_changes_a_pull(tmp_path):
-    runs = [pull_of("start", "0", 1, 0.2), pull_of("start", "0", 2, 0.4), pull_of("start", "0", 3, 90, "yes"), pull_of("speed", "4", 1, 0.6),
-            pull_of("speed", "0.5", 1), pull_of("speed", "8", 1, 50, "yes")]
-    leverage.changes_table(runs, tmp_path)
-    rows = {row[0]: row[3:] for row in read(tmp_path, "leverage_changes")[1:]}
-    assert rows == {"commanded speed, cm/s: 0.5": ["0 of 1", ""], "commanded speed, cm/s: 4": ["1 of 1", "2.00"], "commanded speed, cm/s: 8": ["0 of 1", ""]}
-
-
-def test_a_pull_is_told_over_time_and_by_what_may_move_it(tmp_path):
-    runs = [pull_of("start", seed=1, pull=2, cap_N="0.05", rows_N="2", torque_mean_N_cm="4"), pull_of("start", seed=2, pull=4, cap_N="0.05", rows_N="2",
-            torque_mean_N_cm="4"), pull_of("plain", pull=2.5), pull_of("mirror", pull=2.5), pull_of("step", "0.002", 1, 7), pull_of("bodies", "150", 1, 8)]
-    seconds = [{"body": "living", "knot": "3_1", "second": f"{k}.5", "pull_N": f"{k}"} for k in range(6)]
-
-    def row():
-        leverage.knots_table(runs, seconds, tmp_path)
-        head, *rows = read(tmp_path, "leverage")
-        return dict(zip(head, next(row for row in rows if row[:2] == ["living", "3_1"])))
-
-    assert row() == {"body": "living", "knot": "3_1", "cap of a row, N": "0.05", "pulled": "2 of 2", "pull in the thirds of its time, N": "0.50, 2.50, 4.50",
-                     "of its seconds, N": "0.00 to 5.00", "means of starts, N": "2.00 to 4.00", "of steps, N": "2.50 to 7.00",
-                     "of numbers of bodies, N": "2.50 to 8.00", "over the sum of the rows": "1.5", "over the largest torque, 1/cm": "0.75", "mirror image the same": "yes"}
-    runs[3]["plate_N"] = "2"
-    assert row()["mirror image the same"] == "no"
-
-
 def test_knots_are_counted_that_tie_hold_and_come_off():
     run = lambda unmet, outcome="ok": sweep_columns.Cell({}, {"outcome": outcome, "unmet": unmet}, {}, None)
     cells = [run(""), run("Eq. 6"), run("penetration"), run("knot held; unknot at end"), run("", "never tied")]

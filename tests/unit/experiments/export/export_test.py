@@ -1,6 +1,5 @@
 """`hagfish export`: every column against the log, read and recomputed here."""
 
-import shutil
 import tomllib
 
 import h5py
@@ -8,7 +7,7 @@ import numpy as np
 import pytest
 
 from animal import axes_along, spans, spline_point, total_bend
-from program import hagfish, logged, phases, refused, sets, table
+from program import hagfish, logged, phases, sets, table
 
 DIGITS = 1e-8  # of a column's largest: nine digits are written
 FILES = ("midline", "curvature", "knot", "contacts", "torques", "joints", "eq6", "head", "energy", "moments", "phases", "skin", "summary")
@@ -249,13 +248,6 @@ def test_the_dictionary_has_every_column(run, units):
     assert all(words["meaning"]) and all(words["unit"])
     for column, unit in zip(words["column"], words["unit"]):
         assert unit == "1" or column.endswith("_" + unit.replace("/", "_per_").replace(" ", "_"))
-
-
-def test_a_log_without_means_is_one_line(run, tmp_path):
-    shutil.copy(run[0] / "a.h5", tmp_path / "b.h5")
-    with h5py.File(tmp_path / "b.h5", "r+") as cut:
-        del cut["mean"]
-    refused(tmp_path, "export", "b.h5", "--out", "x", parts=("b.h5", "/mean/forces/"))
 
 
 def test_muscles(tmp_path):

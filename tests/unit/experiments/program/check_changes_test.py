@@ -36,55 +36,6 @@ def changed(folder, change, *options):
     return {line[5:30].strip(): line[30:] for line in done.stdout.splitlines() if line.startswith("FAIL")}
 
 
-def falsification(log: h5py.File, random: np.random.Generator):
-    """One of a kind that nobody sees, and the name of what it changes."""
-    paths: list[str] = []
-    log.visititems(lambda name, node: paths.append(name) if isinstance(node, h5py.Dataset) and node.size else None)
-    kept = [path for path in sorted(paths) if not path.endswith(("qp_time", "wall_time"))]
-    path = kept[random.integers(len(kept))]
-    data = log[path]
-    kind = random.choice(["value", "value", "exchange", "scale", "unit"])
-    if kind == "unit" and "unit" in data.attrs:
-        data.attrs["unit"] = "m"
-    elif data.dtype.kind == "f":
-        values = data[()].ravel()
-        some = np.flatnonzero(np.isfinite(values) & (values != 0))
-        if kind == "exchange" and len(some) and (values != values[some[0]]).any():
-            i = some[random.integers(len(some))]
-            j = np.flatnonzero(values != values[i])[0]
-            values[[i, j]] = values[[j, i]]
-        elif kind == "scale" and len(some):
-            values *= 1.5
-        else:
-            i = some[random.integers(len(some))] if len(some) else 0
-            values[i] = np.nextafter(values[i], np.inf) if np.isfinite(values[i]) else 0
-        data[...] = values.reshape(data.shape)
-    elif data.dtype.kind in "iu":
-        values = data[()].ravel()
-        values[random.integers(len(values))] ^= 1
-        data[...] = values.reshape(data.shape)
-    else:
-        texts = data.asstr()[()]
-        if data.shape:
-            texts[random.integers(len(texts))] = "other"
-        data[...] = texts if data.shape else texts + " "
-    return path
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_a_falsification_is_named_whoever_is_said_to_have_made_the_log(folder, seed):
-    named = []
-
-    def change(log):
-        named.append(falsification(log, np.random.default_rng(seed)))
-        if seed % 2:
-            log.attrs["git_revision"] = "0123abc"
-
-    said = changed(folder, change)
-    words = [named[0], named[0].split("/")[-1]]
-    assert any(word in text for word in words for text in said.values()), (named, said)
-
-
 def reworded(name, change):
     return lambda log: log.attrs.__setitem__(name, change(log.attrs[name]))
 
@@ -178,7 +129,7 @@ def test_a_body_that_is_elsewhere_for_one_frame_is_found(tmp_path):
     assert "motion" in changed(tmp_path, move, "--fast")
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_run_that_was_killed_is_readable_and_comes_to_the_same_end(folder, seed):
     scene = ["table1", "--set", "time.duration=6"]
     whole = logged(folder, *scene, out="whole.h5")

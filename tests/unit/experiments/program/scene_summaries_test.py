@@ -1,13 +1,15 @@
-"""The summary of each built-in scene's run leaves out none of its time, and none of its energy."""
+"""The summary of a run leaves out none of its time, and none of its energy, whatever acts in its scene."""
 
 import h5py
 import pytest
 
 import summary
 from hagfish_log import HagfishLog
-from program import ROOT, outcome
+from program import outcome
 
-SCENES = sorted(path.stem for path in (ROOT / "data").glob("*.toml") if path.stem != "presets")
+# Of each phase, and of each force that does work or loses energy: scripts, muscles, flesh, gravity, plates and poles.
+SCENES = """table1 overhand_reverse pull_overhand living_overhand_free living_overhand_soft muscles_forward reflex_hole_overhand
+    robot_overhand slit knot_round_a_pole""".split()
 COARSE = ("--preset", "quick", "--set", "time.rule=euler", "--log", "summary", "--quiet")
 PULL = ("--set", "time.duration=20")  # of scenes that pull at food: a tighter knot takes ever longer, and tells no more
 PRINTED = 0.005  # s, to which times are rounded

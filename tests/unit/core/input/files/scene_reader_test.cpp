@@ -72,26 +72,9 @@ TEST(SceneReader, TellsLengthsThatAreNone) {
             "s.toml:2: controller.tight_span = \"-1 L\": must be positive");
 }
 
-TEST(SceneReader, OverridesReachSceneAndSpecimen) {
-  const auto [scene, specimen, _] =
-      read_scene(data + "/table1.toml",
-                 {"time.step=0.005", "title=a b", "constraints.activation=violated",
-                  "controller.tighten_tail.b=1", "specimen.mass=90", "script.kind=none"});
-  EXPECT_EQ(scene.time.step, 0.005);
-  EXPECT_EQ(scene.title, "a b");
-  EXPECT_EQ(scene.constraints.activation, Activation::violated);
-  EXPECT_EQ(scene.controller.tighten_tail.a, 0.5);
-  EXPECT_EQ(scene.controller.tighten_tail.b, 1);
-  EXPECT_EQ(specimen.mass, 90);
-  EXPECT_TRUE(scene.script.waypoints.empty());
-  EXPECT_EQ(read_scene_text(plain_scene, "s", {"specimen.mass=70"}).specimen.mass, 70);
-}
-
-TEST(SceneReader, SpecimenFileIsBesideTheSceneOrWhereTheOptionSays) {
+TEST(SceneReader, SpecimenFileIsWhereTheOptionSays) {
   const TemporaryFolder folder;
   folder.write("animal.toml", plain_specimen);
-  const std::string scene = folder.write("sub/scene.toml", "specimen = '../animal.toml'\n");
-  EXPECT_EQ(read_scene(scene).specimen.length, 40);
   const auto changed = read_scene_text("specimen = 'table1.toml'\n", "built in",
                                        {"specimen=" + (folder / "animal.toml").string()});
   EXPECT_EQ(changed.specimen.length, 40);

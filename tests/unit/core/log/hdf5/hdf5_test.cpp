@@ -73,17 +73,6 @@ TEST_F(Hdf5Test, TextsAndAttributesComeBack) {
   EXPECT_EQ(in.names("/b"), (std::vector<std::string>{"all", "one"}));
 }
 
-TEST_F(Hdf5Test, WhatIsThereIsFoundInGroupsToo) {
-  h5.group("/a");
-  h5.group("/a/b");
-  h5.text("/a/b/c", "");
-  const Hdf5Reader in = saved();
-  EXPECT_TRUE(in.has("/a"));
-  EXPECT_TRUE(in.has("/a/b/c"));
-  EXPECT_FALSE(in.has("/b"));
-  EXPECT_FALSE(in.has("/none/b/c"));
-}
-
 TEST_F(Hdf5Test, WhatIsNotThereIsNamedWithItsFile) {
   h5.group("/g");
   h5.texts("/texts", {"x"});

@@ -99,20 +99,6 @@ TEST_F(OutputFileTest, IsMadeByOneProcessAtATime) {
   EXPECT_TRUE(fs::exists(lock)) << "the other one removed the lock";
 }
 
-TEST_F(OutputFileTest, IsFreeOnceItsProcessWasKilled) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const OutputFile output(file, Existing::refuse);
-    put(output.partial(), "half");
-    kill(getpid(), SIGKILL);
-  }
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(text_of(part), "half");
-  EXPECT_EQ(complaint(file, true), "nothing");
-}
-
 TEST_F(OutputFileTest, DoesNotReplaceAFileThatAppearedMeanwhile) {
   const std::string message = complaint(file, false, [this](OutputFile& output) {
     put(output.partial(), "mine");

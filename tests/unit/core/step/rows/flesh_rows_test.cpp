@@ -68,25 +68,6 @@ TEST(FleshRows, GiveThePapersDenseStep) {
   }
 }
 
-TEST(FleshRows, StandInPlaceOfHardContact) {
-  Stage s = soft(5);
-  for (const Row& row : s.solve().rows) {
-    if (row.kind != RowKind::contact && row.kind != RowKind::obstacle) continue;
-    EXPECT_EQ(row.id.of, RowId::Of::flesh);
-    EXPECT_GT(row.compliance, 0);
-  }
-}
-
-TEST(FleshRows, NeverPull) {
-  Stage s = soft(5);
-  s.state.qdot *= 40;  // parts fly apart
-  const StepSolution step = s.solve();
-  for (std::size_t i = 0; i < step.rows.size(); ++i) {
-    if (step.rows[i].id.of != RowId::Of::flesh) continue;
-    EXPECT_GE(step.lambda[static_cast<Eigen::Index>(i)], 0);
-  }
-}
-
 // Where the body is thickest at the border of two segments, each point of a ring has its one foot
 // there: the gap falls up to the border and rises behind it.
 TEST(Flesh, HasOneFootOnABorder) {

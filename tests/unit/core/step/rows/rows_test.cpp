@@ -20,7 +20,7 @@ constexpr double h = 2e-3;
 const ConstraintSettings speculative;
 const ConstraintSettings violated{Activation::violated, 0.5};
 
-/// A hinge about Z at `angle` between limits -0.3 and 0.5.
+/// A hinge about Z at `angle`.
 struct OneHinge {
   Model model;
   State state;
@@ -30,23 +30,9 @@ OneHinge one_hinge(double angle) {
   OneHinge c;
   append_body(c.model, {1, 1, 0.3, {1, 1, 1}, 0, 0}, {});
   append_body(c.model, {1, 1, 0.3, {1, 1, 1}, 0, 0}, {Axis::z});
-  c.model.hinges[0].lower = -0.3;
-  c.model.hinges[0].upper = 0.5;
   c.state = rest_state(c.model);
   c.state.q[7] = angle;
   return c;
-}
-
-TEST(LimitRows, TheNearerSideComesFirstSoThatMirrorImagesKeepTheOrder) {
-  OneHinge c = one_hinge(0.1);
-  c.model.hinges[0].lower = -0.5;
-  for (const double side : {-1.0, 1.0}) {
-    c.state.q[7] = 0.1 * side;
-    const std::vector<Row> rows = limit_rows(c.model, c.state, speculative, h);
-    ASSERT_EQ(rows.size(), 2U);
-    EXPECT_EQ(rows[0].joint()->sign, -side);
-    EXPECT_EQ(rows[1].joint()->sign, side);
-  }
 }
 
 /// Contacts of a knotted fish, both near and overlapping, and every other kind of row.
@@ -98,50 +84,50 @@ struct Tangle {
 /// Of joints with limits of each kind.
 std::vector<Tangle> tangles(unsigned seed) { return {Tangle(seed), Tangle(seed, cone_hagfish())}; }
 
-TEST(LimitRows, BoundBothSides) {
-  const OneHinge c = one_hinge(0.1);
-  const std::vector<Row> rows = limit_rows(c.model, c.state, speculative, h);
-  ASSERT_EQ(rows.size(), 2U);
-  for (const Row& row : rows) {
-    EXPECT_EQ(row.kind, RowKind::limit);
-    EXPECT_EQ(row.joint()->dof, 6);
-    EXPECT_EQ(row.lower, 0);
-    EXPECT_EQ(row.upper, unbounded);
+/// A row of a hinge: whether it bounds the angle from below (1) or above (-1), and its speed.
+struct LimitRow {
+  double sign, rhs;
+};
+
+// q̇ >= -(q - lower) / h and -q̇ >= -(upper - q) / h: at most to the limit within the step. Half of a
+// violation is pushed out. The nearer side comes first, so that mirror images keep the order.
+TEST(LimitRows, BoundEachLimitedSideTheNearerOneFirst) {
+  struct Case {
+    std::string name;
+    double angle, lower, upper;
+    ConstraintSettings settings;
+    std::vector<LimitRow> rows;
+  };
+  const double past = 0.5 * 0.02 / h;
+  for (const Case& c : {
+           Case{"nearer to the lower",
+                0.05,
+                -0.3,
+                0.5,
+                speculative,
+                {{1, -0.35 / h}, {-1, -0.45 / h}}},
+           {"nearer to the upper", 0.2, -0.3, 0.5, speculative, {{-1, -0.3 / h}, {1, -0.5 / h}}},
+           {"past the upper", 0.52, -0.3, 0.5, speculative, {{-1, past}, {1, -0.82 / h}}},
+           {"past the lower", -0.32, -0.3, 0.5, speculative, {{1, past}, {-1, -0.82 / h}}},
+           {"one free side", 0.1, -0.3, unbounded, speculative, {{1, -0.4 / h}}},
+           {"none is violated", 0.5, -0.3, 0.5, violated, {}},
+           {"one is violated", 0.52, -0.3, 0.5, violated, {{-1, past}}},
+       }) {
+    SCOPED_TRACE(c.name);
+    OneHinge hinge = one_hinge(c.angle);
+    hinge.model.hinges[0].lower = c.lower;
+    hinge.model.hinges[0].upper = c.upper;
+    const std::vector<Row> rows = limit_rows(hinge.model, hinge.state, c.settings, h);
+    ASSERT_EQ(rows.size(), c.rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_EQ(rows[i].kind, RowKind::limit);
+      EXPECT_EQ(rows[i].joint()->dof, 6);
+      EXPECT_EQ(rows[i].joint()->sign, c.rows[i].sign);
+      EXPECT_NEAR(rows[i].rhs, c.rows[i].rhs, 1e-12 / h);
+      EXPECT_EQ(rows[i].lower, 0);
+      EXPECT_EQ(rows[i].upper, unbounded);
+    }
   }
-  // q̇ >= -(q - lower) / h and -q̇ >= -(upper - q) / h: at most to the limit within the step.
-  EXPECT_EQ(rows[0].joint()->sign, 1);
-  EXPECT_DOUBLE_EQ(rows[0].rhs, -0.4 / h);
-  EXPECT_EQ(rows[1].joint()->sign, -1);
-  EXPECT_DOUBLE_EQ(rows[1].rhs, -0.4 / h);
-}
-
-TEST(LimitRows, PushAViolationOutByItsShare) {
-  const OneHinge over = one_hinge(0.52);
-  const Row upper = limit_rows(over.model, over.state, speculative, h)[0];
-  EXPECT_NEAR(upper.rhs, 0.5 * 0.02 / h, 1e-12);
-  EXPECT_EQ(upper.joint()->sign, -1);  // so -q̇ >= a positive speed: back in
-  const OneHinge under = one_hinge(-0.32);
-  const Row lower = limit_rows(under.model, under.state, speculative, h)[0];
-  EXPECT_NEAR(lower.rhs, 0.5 * 0.02 / h, 1e-12);
-  EXPECT_EQ(lower.joint()->sign, 1);
-}
-
-TEST(LimitRows, WaitForAViolationWhereToldTo) {
-  const OneHinge inside = one_hinge(0.5);
-  EXPECT_TRUE(limit_rows(inside.model, inside.state, violated, h).empty());
-  const OneHinge over = one_hinge(0.52);
-  const std::vector<Row> rows = limit_rows(over.model, over.state, violated, h);
-  ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0].joint()->sign, -1);
-  EXPECT_NEAR(rows[0].rhs, 0.5 * 0.02 / h, 1e-12);
-}
-
-TEST(LimitRows, LeaveFreeSidesOut) {
-  OneHinge c = one_hinge(0.1);
-  c.model.hinges[0].upper = unbounded;
-  const std::vector<Row> rows = limit_rows(c.model, c.state, speculative, h);
-  ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0].joint()->sign, 1);
 }
 
 TEST(ContactRows, CloseAGapAndPushOutAnOverlap) {

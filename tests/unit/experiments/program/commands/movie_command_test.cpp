@@ -23,15 +23,11 @@ class MovieTest : public ProgramTest {
 
   /// Width, height, pictures.
   std::string probe(const std::string& film) const {
-    const std::string command =
-        "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
-        "stream=width,height,nb_read_frames -of csv=p=0 '" +
-        (folder / film).string() + "'";
-    FILE* pipe = popen(command.c_str(), "r");
-    std::string text(100, ' ');
-    text.resize(fread(text.data(), 1, text.size(), pipe));
-    pclose(pipe);
-    return text;
+    return run_shell(
+               "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+               "stream=width,height,nb_read_frames -of csv=p=0 " +
+               film)
+        .output;
   }
 };
 

@@ -22,14 +22,6 @@ TEST_F(ProgramTest, PlaybackRefusesRestartsBetweenFrames) {
   expect_refused("playback a.log --out p.h5", {"a.log", "0.04 s", "0.03 s", "time.frame_interval"});
 }
 
-TEST_F(ProgramTest, PlaybackRefusesALogWithoutMeans) {
-  const ProgramOutcome run =
-      run_program("run table1 --preset quick --until slide --quiet --out a.log");
-  ASSERT_EQ(run.code, 0) << run.output;
-  H5::H5File((folder / "a.log").string(), H5F_ACC_RDWR).unlink("/mean/forces/thigmotaxis");
-  expect_refused("playback a.log --out p.h5", {"a.log", "/mean/forces/thigmotaxis"});
-}
-
 /// Of a log whose means are all 0 but for one that ends where the slide begins, nothing drives the
 /// slide: not that mean, which is of the time before, and no single step's force.
 TEST_F(ProgramTest, PlaybackAppliesTheMeansBetweenFramesAlone) {

@@ -37,21 +37,8 @@ TEST_F(ProgramTest, RefusesBadInputInOneLine) {
   expect_refused("run --set time.frame_interval=0.007", {"time.frame_interval"});
   expect_refused("run --set expect.knot=unknot", {"expect.knot"});
   expect_refused("run --set controller.contact_gap=1", {"controller.contact_gap"});
-  expect_refused("run --out . --force", {"not a regular file"});
   expect_refused("run --qp none", {"--qp", "ipopt"});
   expect_refused("run specimens/pacific_hagfish", {"scenes"});
-  expect_refused("run --out /no/such/folder/x.h5", {"/no/such/folder/x.h5", "No such file"});
-}
-
-TEST_F(ProgramTest, FullDiskIsOneLine) {
-  // A limit on file size (blocks of 1024 bytes) with its signal ignored stands for a full disk.
-  const ProgramOutcome full = run_program("run --quiet --set time.duration=2 --out a.h5",
-                                          "trap '' XFSZ && ulimit -f 150 &&");
-  EXPECT_EQ(full.code, 1) << full.output;
-  EXPECT_EQ(std::count(full.output.begin(), full.output.end(), '\n'), 1) << full.output;
-  EXPECT_NE(full.output.find("a.h5"), std::string::npos) << full.output;
-  EXPECT_NE(full.output.find("File too large"), std::string::npos) << full.output;
-  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST_F(ProgramTest, AFailedStepLeavesAReadableLogWithTheCause) {
@@ -86,16 +73,6 @@ TEST_F(ProgramTest, AScriptThatTiesNothingEndsWithCode3AndSaysSo) {
                                           "--quiet --force --out a.h5 --set expect.knot= --set "
                                           "time.duration=3.5");
   EXPECT_EQ(none.code, 0) << none.output;
-}
-
-TEST_F(ProgramTest, AScriptThatTiesAnotherKnotEndsWithCode3AndNamesIt) {
-  const ProgramOutcome run =
-      run_program("run --preset quick --quiet --set expect.knot=4_1 --out a.h5");
-  EXPECT_EQ(run.code, 3) << run.output;
-  EXPECT_NE(run.output.find("failed: the script ended with a knot (overhand, 3_1), tied since "),
-            std::string::npos)
-      << run.output;
-  EXPECT_NE(run.output.find(", but expect.knot = 4_1 at step "), std::string::npos) << run.output;
 }
 
 TEST_F(ProgramTest, StopsWhenAPhaseHasEndedAndTellsTheKnotAsItGoes) {

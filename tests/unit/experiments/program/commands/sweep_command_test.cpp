@@ -6,7 +6,6 @@
 #include <set>
 #include <sstream>
 
-#include "core/input/files/text_file.hpp"
 #include "tests/support/program_runs.hpp"
 
 namespace hagfish::sweep_command_test {
@@ -15,31 +14,12 @@ namespace fs = std::filesystem;
 
 using Row = std::map<std::string, std::string>;
 
-/// Of a CSV file, quotes taken off.
+/// Of a CSV file.
 std::vector<Row> rows_of(const fs::path& file) {
-  const auto split = [](const std::string& line) {
-    std::vector<std::string> fields(1);
-    bool quoted = false;
-    for (const char c : line) {
-      if (c == '"') {
-        quoted = !quoted;
-      } else if (c == ',' && !quoted) {
-        fields.emplace_back();
-      } else {
-        fields.back() += c;
-      }
-    }
-    return fields;
-  };
-  std::istringstream text(read_text_file(file));
-  std::string line;
-  std::getline(text, line);
-  const std::vector<std::string> heading = split(line);
-  std::vector<Row> rows;
-  while (std::getline(text, line)) {
-    const std::vector<std::string> fields = split(line);
-    Row& row = rows.emplace_back();
-    for (std::size_t k = 0; k < heading.size(); ++k) row[heading[k]] = fields.at(k);
+  std::vector<Cells> cells = csv_cells(file);
+  std::vector<Row> rows(cells.size() - 1);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t k = 0; k < cells[0].size(); ++k) rows[r][cells[0][k]] = cells[r + 1].at(k);
   }
   return rows;
 }
