@@ -1,10 +1,6 @@
 #include "experiments/audit/audit.hpp"
 
-#include "experiments/audit/audit_activation.hpp"
-#include "experiments/audit/audit_flesh.hpp"
-#include "experiments/audit/audit_forces.hpp"
-#include "experiments/audit/audit_forward_inverse.hpp"
-#include "experiments/audit/audit_frames.hpp"
+#include "experiments/audit/audit_parts.hpp"
 #include "experiments/judge/replay.hpp"
 
 namespace hagfish {

@@ -1,4 +1,4 @@
-#include "experiments/audit/audit_flesh.hpp"
+#include "experiments/audit/audit_parts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "experiments/audit/audit_forces.hpp"
+#include "experiments/audit/audit_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "experiments/audit/audit_forward_inverse.hpp"
+#include "experiments/audit/audit_parts.hpp"
 
 #ifdef HAGFISH_MUJOCO
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "experiments/audit/audit_frames.hpp"
+#include "experiments/audit/audit_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-// A log beside another one of the same run.
+// A log beside another one of the same run, as of its run made again.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "core/log/reading/log_contents.hpp"
+#include "experiments/audit/audit.hpp"
 
 namespace hagfish {
 
@@ -18,5 +18,11 @@ struct LogComparison {
 /// same to the bit, and so must all be whose motion ends with the same bits. Else numbers are
 /// compared to a tolerance, until the motions are apart by more than rounding.
 LogComparison compare_logs(const LogContents& log, const std::string& again, bool own_build);
+
+/// Makes the run of a log again and compares all that the log holds, but for how long a computer
+/// took and what tells when, where and by which command it was made. Of a law of the run's own, and
+/// of a branch whose beginning the log does not have, it says that it was not made again. Fails
+/// where it cannot be.
+Finding audit_again(const LogContents& log);
 
 }  // namespace hagfish

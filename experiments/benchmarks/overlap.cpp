@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <numbers>
 
@@ -18,6 +17,7 @@
 #include "core/run/drive.hpp"
 #include "experiments/benchmarks/mujoco_setting.hpp"
 #include "experiments/benchmarks/start.hpp"
+#include "experiments/common/cpu_time.hpp"
 #include "mujoco_ref/mirror.hpp"
 
 namespace {
@@ -43,8 +43,6 @@ struct Seen {
   double limits = 0;   ///< rad
   double cpu = std::numeric_limits<double>::infinity();  ///< s
 };
-
-double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// The scene with the animal and the state of `knotted`, at rest.
 ResolvedScene pulled(const std::string& scene, const Start& knotted) {

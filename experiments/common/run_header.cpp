@@ -5,7 +5,7 @@
 
 namespace hagfish {
 
-LogHeader log_header(const ResolvedScene& resolved, const Model& model, const std::string& qp,
+LogHeader log_header(const ResolvedScene& resolved, const std::string& qp,
                      const std::string& typed) {
   const Scene& scene = resolved.scene;
   LogHeader header;
@@ -13,7 +13,7 @@ LogHeader log_header(const ResolvedScene& resolved, const Model& model, const st
   header.scene = scene_to_toml(scene, resolved.specimen);
   header.qp = qp;
   header.libraries = build_libraries();
-  header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
+  header.mjcf = mjcf_files(resolved.model, scene.contact.least_arc, scene.time.step);
   return header;
 }
 

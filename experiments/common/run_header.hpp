@@ -3,14 +3,13 @@
 
 #include <string>
 
-#include "core/chain/model.hpp"
 #include "core/input/files/scene_reader.hpp"
 #include "core/log/log_header.hpp"
 
 namespace hagfish {
 
 /// Header of a run in `scene` with the QP back end `qp`, by the command line as `typed`.
-LogHeader log_header(const ResolvedScene& resolved, const Model& model, const std::string& qp,
+LogHeader log_header(const ResolvedScene& resolved, const std::string& qp,
                      const std::string& typed);
 
 }  // namespace hagfish

@@ -3,8 +3,16 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 
 namespace hagfish {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw FileError(file.string() + ": cannot be read");
+  return text;
+}
 
 void TextFile::write(const std::string& text) {
   const std::string partial = file_.partial().string();

@@ -1,6 +1,7 @@
 // A text that a command writes when its work is done.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "core/log/hdf5/output_file.hpp"
@@ -8,6 +9,9 @@
 namespace hagfish {
 
 inline constexpr const char* force_help = "replace an existing file";
+
+/// All of a file that this program wrote. Throws FileError where it cannot be read.
+std::string text_of(const std::filesystem::path& file);
 
 /// Reserves `file` before the work, as OutputFile does and throwing as it does.
 class TextFile {

@@ -2,20 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
-#include <ctime>
-#include <exception>
 #include <fstream>
 #include <map>
 #include <mutex>
 #include <sstream>
-#include <thread>
 
 #include "core/input/input_error.hpp"
 #include "core/log/build_info.hpp"
 #include "core/log/hdf5/hdf5_error.hpp"
 #include "experiments/audit/audit.hpp"
+#include "experiments/common/cpu_time.hpp"
+#include "experiments/common/in_parallel.hpp"
+#include "experiments/common/text_file.hpp"
 #include "experiments/design/design_page.hpp"
 #include "experiments/design/length_bound.hpp"
 #include "experiments/design/living_body.hpp"
@@ -42,35 +41,6 @@ constexpr const char *tries_name = "tries.csv", *candidates_name = "candidates.c
                      *times_name = "times.csv", *start_name = "start.csv", *log_name = "knot.h5",
                      *strip_name = "strip.png";
 
-/// work(k) for k from 0 to count - 1, each once, by so many threads. Throws what one of them does.
-void in_parallel(int count, int threads, const std::function<void(int)>& work) {
-  std::atomic<int> next = 0;
-  std::exception_ptr error;
-  std::mutex mutex;
-  {
-    std::vector<std::jthread> workers;
-    for (int t = 0; t < std::min(count, threads); ++t) {
-      workers.emplace_back([&] {
-        try {
-          for (int k = next++; k < count; k = next++) work(k);
-        } catch (...) {
-          const std::scoped_lock lock(mutex);
-          if (!error) error = std::current_exception();
-          next = count;
-        }
-      });
-    }
-  }
-  if (error) std::rethrow_exception(error);
-}
-
-std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
   stream << text;
@@ -94,14 +64,14 @@ void claim(const DesignOptions& options) {
     if (!options.start.empty()) {
       const fs::path tries = options.start / tries_name;
       if (!fs::exists(tries)) throw FileError(tries.string() + ": no tries to start from");
-      write_text(options.folder / start_name, read_text(tries));
+      write_text(options.folder / start_name, text_of(tries));
     }
     return write_text(file, identity(options));
   }
   if (!options.resume) {
     throw FileError(options.folder.string() + ": has a search already; --resume continues it");
   }
-  if (read_text(file) != identity(options)) {
+  if (text_of(file) != identity(options)) {
     throw FileError(file.string() +
                     ": holds a search with another knot, animal, seed or program version; choose "
                     "another folder");
@@ -122,7 +92,7 @@ std::map<int, std::string> numbered_lines(const fs::path& file) {
 
 /// Ends a line that a kill left unfinished, so that what is added stands by itself.
 void end_last_line(const fs::path& name, AppendedFile& file) {
-  const std::string text = read_text(name);
+  const std::string text = text_of(name);
   if (!text.empty() && text.back() != '\n') file.add("\n");
 }
 
@@ -190,14 +160,14 @@ class Search {
 
   DesignOutcome run() {
     const auto begin = std::chrono::steady_clock::now();
-    const std::clock_t cpu_begin = std::clock();
+    const double cpu_begin = cpu_time();
     const auto elapsed = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     const auto over = [&] { return options_.interrupted() || elapsed() > options_.budget; };
     do {
       judge(try_batch(), over);
-      const double cpu = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
+      const double cpu = cpu_time() - cpu_begin;
       outcome_.time = {before_.wall + elapsed(), before_.cpu + cpu};
       report();
     } while (!outcome_.found && !over());

@@ -8,14 +8,6 @@
 namespace hagfish {
 namespace {
 
-std::vector<double> even(int count, double last) {
-  std::vector<double> knots(count);
-  for (int k = 0; k < count; ++k) {
-    knots[k] = last * k / (count - 1);
-  }
-  return knots;
-}
-
 /// What each hinge (rows) takes of 1 rad per body length at each station (columns).
 Eigen::MatrixXd station_shares(const Model& model, const std::vector<double>& stations) {
   const auto count = static_cast<Eigen::Index>(stations.size());
@@ -48,6 +40,12 @@ Eigen::MatrixXd time_shares(const Model& model, const std::vector<double>& frame
 }
 
 }  // namespace
+
+std::vector<double> even(int count, double last) {
+  std::vector<double> values(count);
+  for (int k = 0; k < count; ++k) values[k] = last * k / (count - 1);
+  return values;
+}
 
 ProgramFit fit_program(const Model& model, const std::vector<double>& time,
                        const Eigen::MatrixXd& q, int times, int stations) {

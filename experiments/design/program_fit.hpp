@@ -18,6 +18,9 @@ struct ProgramFit {
   double rms_angle = 0;  ///< rms of the hinges' angles, to compare with
 };
 
+/// So many numbers from 0 to `last`, two or more.
+std::vector<double> even(int count, double last);
+
 /// The program of `times` from 0 to time.back() and `stations` from 0 to 1, both even, whose shapes
 /// are nearest to `q` (frames x nq) at `time` (s, rising, the first 0), by least squares of the
 /// hinges' angles. Throws std::invalid_argument for fewer than two of either, or for more than the

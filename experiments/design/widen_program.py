@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "drawing"))
-from hagfish_log import HagfishLog, LogError  # noqa: E402
+from hagfish_log import KINDS, HagfishLog, LogError  # noqa: E402
 from script import fail  # noqa: E402
 
 HEADING = "time (s),station (L),bend_y (rad/L),bend_z (rad/L),twist (rad/L)"
@@ -34,7 +34,6 @@ GROWTH = [0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 1.0, 1.03, 1.06, 1.09, 1.12]  # thickn
 ROUNDS, ITERATIONS, MEMORY = 6, 50, 20
 ENOUGH = 0.01  # cm of overlap
 LARGEST_MOVE = 0.15  # cm
-AXES = {"x": 0, "y": 1, "z": 2}
 COLUMN = [2, 0, 1]  # of the program, by axis
 
 
@@ -45,9 +44,8 @@ class Body:
         self.each = float(log["/model/length"][0])
         self.radius = log["/model/radius"]
         self.count = len(self.radius)
-        names = [name.decode() if isinstance(name, bytes) else name for name in log["/model/dof_name"]][6:]
-        self.body = np.array([int(name[1:].split("_")[0]) for name in names])
-        self.axis = np.array([AXES.get(name[-1], 0) if name[-2] == "_" else 0 for name in names])
+        _, self.body, kind = log.hinges()
+        self.axis = np.array([KINDS.index(each) for each in kind])
         self.limit = np.minimum(-log["/model/limit_lower"], log["/model/limit_upper"])[6:]
         last = np.minimum(self.body + 1, self.count)
         last[self.body + 2 >= self.count] = self.count

@@ -59,10 +59,6 @@ def apart(found: Motion, wanted: Motion, of: str = "") -> dict[str, float]:
     return {of + name: (distance if name.endswith("_cm") else off)(found[name], wanted[name]) for name in wanted if wanted[name].any()}
 
 
-def shown(value: float | None, form: str = ".0f") -> str:
-    return "-" if value is None or np.isnan(value) else f"{value:{form}}".replace("e+0", "e")
-
-
 def pick(rows: Iterable[dict[str, Any]], **wanted: object) -> list[dict[str, Any]]:
     return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
 

@@ -24,12 +24,6 @@ COLOURS = {"X": plots.BLUE, "Y": plots.ORANGE, "Z": plots.INK}
 LETTERS = ("a", "b, c", "e", "d")  # panels of the page that show each claim
 
 
-def edges(centres: np.ndarray) -> np.ndarray:
-    """Cell boundaries around rising centres."""
-    middle = (centres[1:] + centres[:-1]) / 2
-    return np.r_[2 * centres[0] - middle[0], middle, 2 * centres[-1] - middle[-1]]
-
-
 def surfaces(s: claims.Sliding, out: Path) -> None:
     """Three surfaces, and the same data from above with the knot's two ends."""
     figure = plt.figure(figsize=(10.5, 6.5))
@@ -52,7 +46,7 @@ def surfaces(s: claims.Sliding, out: Path) -> None:
 
         flat = figure.add_axes([0.055 + 0.312 * column, 0.135, 0.255, 0.24])
         flat.grid(visible=False)
-        image = flat.pcolormesh(edges(joint.astype(float)), edges(s.time), force, cmap="RdBu_r", vmin=-scale, vmax=scale, rasterized=True)
+        image = flat.pcolormesh(joint.astype(float), s.time, force, cmap="RdBu_r", vmin=-scale, vmax=scale, shading="nearest", rasterized=True)
         flat.plot(s.head_end / per_joint, s.time, color="black", lw=0.9, label="head end")
         flat.plot(s.tail_end / per_joint, s.time, color="black", lw=0.9, ls="--", label="tail end")
         flat.set_xlabel("joint (head 0)", fontsize=8)
@@ -83,7 +77,7 @@ def draw_zero(axes: Any, s: claims.Sliding) -> None:
     top = max(size.max(), 1e-300)
     shown = np.ma.masked_where(size == 0, size)
     axes.grid(visible=False)
-    image = axes.pcolormesh(edges(arcs), edges(s.time), shown, cmap="cividis", rasterized=True, norm=LogNorm(vmin=top * 1e-4, vmax=top))
+    image = axes.pcolormesh(arcs, s.time, shown, cmap="cividis", shading="nearest", rasterized=True, norm=LogNorm(vmin=top * 1e-4, vmax=top))
     axes.plot(s.head_end, s.time, color=plots.VERMILION, lw=1.2, label="knot, head end")
     axes.plot(s.tail_end, s.time, color=plots.VERMILION, lw=1.2, ls="--", label="knot, tail end")
     axes.set(xlabel="arc length from the head, cm", ylabel="time, s")
@@ -100,7 +94,7 @@ def draw_growth(axes: Any, s: claims.Sliding, name: str, found: dict[str, float]
     axes.plot(x, found["fit_slope_per_cm"] * x + found["fit_intercept"], color=plots.INK, lw=1,
               label=f"line: {found['fit_slope_per_cm']:+.3g} per cm, $R^2$ = {found['fit_r2']:.2f}")
     bounds = np.linspace(*x, 11)
-    part = np.clip(np.searchsorted(bounds, s.head_end, side="right") - 1, 0, 9)
+    part = np.clip(np.digitize(s.head_end, bounds) - 1, 0, 9)
     medians = [np.median(y[part == k]) if np.any(part == k) else np.nan for k in range(10)]
     axes.stairs(medians, bounds, baseline=None, color=plots.VERMILION, lw=1.3, label="median of each tenth of the way")
     axes.invert_xaxis()

@@ -131,6 +131,12 @@ class HagfishLog(Results):
         keys, names = (self.strings(f"/enumerations/{name}") for name in (by, what))
         return dict(zip(keys, names))
 
+    def knots(self, frames: np.ndarray) -> list[str]:
+        """The knot's name at these frames; its invariants where they have none."""
+        names = self.named("knot", by="knot_invariants")
+        types = (f"det={d},v2={v}" for d, v in zip(self["/knot/determinant"][frames], self["/knot/v2"][frames]))
+        return [names.get(type_, type_) for type_ in types]
+
     def in_phase(self, phase: str) -> np.ndarray:
         """Indices of the frames of one phase, one of /enumerations/phase."""
         return np.flatnonzero(self.labels("/trajectory/phase") == phase)

@@ -10,7 +10,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import plots
-from figure8 import edges
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -107,7 +106,7 @@ def draw_map(axes: plt.Axes, muscles: Muscles, bends: bool) -> None:
     log = muscles.log
     arc, activation = muscles.map(bends)
     axes.grid(visible=False)
-    image = axes.pcolormesh(edges(muscles.time), edges(arc), activation.T, cmap="viridis", vmin=0, vmax=1, rasterized=True)
+    image = axes.pcolormesh(muscles.time, arc, activation.T, cmap="viridis", vmin=0, vmax=1, shading="nearest", rasterized=True)
     axes.plot(muscles.time, log["/knot/head_end"], color="white", lw=0.9, label="knot, head end")
     axes.plot(muscles.time, log["/knot/tail_end"], color="white", lw=0.9, ls="--", label="knot, tail end")
     axes.set(ylabel="arc length from the head, cm", xlabel="time, s", ylim=(arc[0], arc[-1]))

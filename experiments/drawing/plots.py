@@ -98,6 +98,11 @@ def label(axes: Any, points: Iterable[tuple[float, float, str, str]]) -> None:
                           path_effects=[withStroke(linewidth=2, foreground="white")])
 
 
+def knot_handles(axes: Any) -> list[Any]:
+    """Of a legend: each knot as its line is drawn."""
+    return [axes.plot([], [], label=look.label, **look.style)[0] for look in KNOTS.values()]
+
+
 def legend_above(figure: Any, handles: Sequence[Any], columns: int, room: float, **options: Any) -> None:
     """One legend for all panels, over them, in `room` of the figure's height."""
     figure.get_layout_engine().set(rect=(0, 0, 1, 1 - room))

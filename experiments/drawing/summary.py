@@ -3,6 +3,7 @@
 Usage: summary.py LOG.h5 CHECK.csv OUT.md, where CHECK.csv is what `hagfish check --csv` says of the log.
 """
 
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -115,14 +116,6 @@ def table_one(log: HagfishLog) -> list[str]:
     return [f"## {name}", "", *table([heading[0], *heading[2:]], [[row[0], *row[2:]] for row in rows])]
 
 
-def knot_types(log: HagfishLog, frames: np.ndarray) -> dict[str, int]:
-    """Knot types of the frames and how many frames each."""
-    named = log.named("knot", by="knot_invariants")
-    types = (f"det={d},v2={v}" for d, v in zip(log["/knot/determinant"][frames], log["/knot/v2"][frames]))
-    names = [named.get(type_, type_) for type_ in types]
-    return {name: names.count(name) for name in dict.fromkeys(names)}
-
-
 def span(values: np.ndarray) -> str:
     """First and last finite value."""
     known = values[np.isfinite(values)]
@@ -138,7 +131,7 @@ def timetable(log: HagfishLog) -> list[str]:
             rows.append([phase, "not reached", "", "", "", ""])
             continue
         end = time[min(frames[-1] + 1, log.frames - 1)]
-        kinds = ", ".join(f"{name} ({count})" for name, count in knot_types(log, frames).items())
+        kinds = ", ".join(f"{name} ({count})" for name, count in Counter(log.knots(frames)).items())
         rows.append([phase, f"{time[frames[0]]:.2f} to {end:.2f}", f"{end - time[frames[0]]:.2f}", kinds,
                      span(log["/knot/head_end"][frames]), span(log["/knot/tail_end"][frames])])
     return ["## Phases", "", *table(["Phase", "Time, s", "Duration, s", "Knot types (frames)", "Head end of knot, cm",

@@ -21,7 +21,12 @@ class Table:
 
 def short(value: float, form: str = ".3g") -> str:
     """In a format, without the nought of an exponent."""
-    return f"{value:{form}}".replace("e+0", "e")
+    return f"{value:{form}}".replace("e+0", "e").replace("e-0", "e-")
+
+
+def shown(value: float | None, form: str = ".3g") -> str:
+    """The same, or a dash where there is no value."""
+    return "-" if value is None or math.isnan(value) else short(value, form)
 
 
 def grouped(rows: Iterable[Any], key: Callable[[Any], Any]) -> dict[Any, list[Any]]:

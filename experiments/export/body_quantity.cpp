@@ -7,7 +7,7 @@
 
 #include "core/contact/spline.hpp"
 #include "core/muscle/paths.hpp"
-#include "experiments/audit/audited_frame.hpp"
+#include "experiments/audit/logged_contacts.hpp"
 #include "experiments/view/along_body.hpp"
 
 namespace hagfish {
@@ -64,18 +64,14 @@ void fill_activation(const LogContents& log, BodyQuantity& quantity) {
 }
 
 void fill_contact(const LogContents& log, BodyQuantity& quantity) {
-  const std::vector<std::int64_t> frame = log.h5.integers("/contacts/frame");
-  const std::vector<double> a = log.h5.doubles("/contacts/spline_a");
-  const std::vector<double> b = log.h5.doubles("/contacts/spline_b");
-  const std::vector<double> force = log.h5.doubles("/contacts/force");
   quantity.arc = body_centres(log.model);
   std::vector<std::vector<double>> along(log.time.size(),
                                          std::vector<double>(quantity.arc.size(), 0.0));
-  for (std::size_t c = 0; c < frame.size(); ++c) {
-    for (const double parameter : {a[c], b[c]}) {
-      if (!on_spline(log.model, parameter) || !(force[c] > 0)) continue;
-      spread_contact(log.model, force[c], (parameter + 0.5) * body_length(log.model),
-                     along[static_cast<std::size_t>(frame[c])]);
+  for (const LoggedContact& c : logged_contacts(log)) {
+    for (const double parameter : {c.a, c.b}) {
+      if (!on_spline(log.model, parameter) || !(c.force > 0)) continue;
+      spread_contact(log.model, c.force, (parameter + 0.5) * body_length(log.model),
+                     along[static_cast<std::size_t>(c.frame)]);
     }
   }
   quantity.values.resize(log.q.rows(), std::ssize(quantity.arc));

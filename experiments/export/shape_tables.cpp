@@ -6,6 +6,7 @@
 #include "core/knot/writhe.hpp"
 #include "experiments/export/export_tables.hpp"
 #include "experiments/export/frame_contacts.hpp"
+#include "experiments/judge/replay.hpp"
 
 namespace hagfish {
 namespace {
@@ -142,8 +143,7 @@ std::vector<ExportTable> shape_tables(const LogContents& log, bool si) {
   ExportTable midline = midline_table(si), curvature = curvature_table(si), knot = knot_table(si),
               contacts = contact_table_of(si);
   const FrameContacts of_frame(log);
-  const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
-  const std::vector<std::int64_t> v2 = log.h5.integers("/knot/v2");
+  const std::vector<KnotInvariants> types = logged_knots(log);
   const std::vector<double> agreement = log.h5.doubles("/knot/agreement");
   const std::vector<double> head_end = log.h5.doubles("/knot/head_end");
   const std::vector<double> tail_end = log.h5.doubles("/knot/tail_end");
@@ -151,9 +151,9 @@ std::vector<ExportTable> shape_tables(const LogContents& log, bool si) {
     const ShownFrame frame(log, static_cast<Eigen::Index>(f));
     add_midline(log, frame, midline);
     add_curvature(log, frame, curvature);
-    const KnotInvariants type{static_cast<int>(determinant[f]), static_cast<int>(v2[f])};
+    const auto& [determinant, v2] = types[f];
     knot.add({static_cast<std::int64_t>(f), log.time[f], std::string(phase_name(frame.phase)),
-              knot_name(type), determinant[f], v2[f], agreement[f],
+              knot_name(types[f]), std::int64_t{determinant}, std::int64_t{v2}, agreement[f],
               writhe(frame.observation.kin.centre), head_end[f], tail_end[f],
               tail_end[f] - head_end[f]});
     add_contacts(log, of_frame, frame, contacts);

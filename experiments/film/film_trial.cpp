@@ -10,6 +10,7 @@
 #include "core/knot/writhe.hpp"
 #include "core/run/simulation.hpp"
 #include "core/scene/interpolation.hpp"
+#include "experiments/design/program_fit.hpp"
 #include "experiments/film/fit/film_curve.hpp"
 #include "experiments/film/fit/film_shape.hpp"
 
@@ -21,12 +22,6 @@ constexpr double compare_each = 0.1;  // s
 /// What is its own mirror image has a writhe of about 0: those of right-handed knots are above 3.
 constexpr double least_writhe = 2;
 constexpr int centreline_points = 101;
-
-std::vector<double> even_places(int count) {
-  std::vector<double> places(count);
-  for (int k = 0; k < count; ++k) places[k] = static_cast<double>(k) / (count - 1);
-  return places;
-}
 
 Eigen::VectorXd values_at(const CurvatureProgram& program, double time) {
   const auto n = static_cast<Eigen::Index>(program.station.size());
@@ -67,9 +62,8 @@ FilmedKnot knot_of(const Eigen::Matrix3Xd& points, const KnotSettings& settings)
 FilmedKnot knot_of(const Model& model, const CurvatureProgram& program, std::size_t time,
                    const KnotSettings& settings) {
   const ProgramShape shape(model, program.station, false);
-  return knot_of(
-      shape.points(values_at(program, program.time[time]), even_places(centreline_points)),
-      settings);
+  return knot_of(shape.points(values_at(program, program.time[time]), even(centreline_points, 1)),
+                 settings);
 }
 
 std::vector<Eigen::Vector4d> first_bends(const Model& model, const CurvatureProgram& program) {

@@ -71,6 +71,16 @@ RunFrame LogFrames::at(Eigen::Index frame) const {
           .momentum = momentum_[f]};
 }
 
+std::vector<KnotInvariants> logged_knots(const LogContents& log) {
+  const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant"),
+                                  v2 = log.h5.integers("/knot/v2");
+  std::vector<KnotInvariants> types;
+  for (std::size_t f = 0; f < log.time.size(); ++f) {
+    types.push_back({static_cast<int>(determinant[f]), static_cast<int>(v2[f])});
+  }
+  return types;
+}
+
 void replay(const LogContents& log, Judge& judge) {
   const LogFrames frames(log);
   const bool full = level_of(log.h5) == LogLevel::full;

@@ -24,6 +24,9 @@ class LogFrames {
   std::vector<MomentumLedger> momentum_;
 };
 
+/// The knot type of each frame.
+std::vector<KnotInvariants> logged_knots(const LogContents& log);
+
 /// Shows a log to the judge: each frame, then the steps that begin between it and the next. Of a
 /// log of frames, the worst figures of the steps since the frame before.
 void replay(const LogContents& log, Judge& judge);

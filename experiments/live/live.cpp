@@ -15,6 +15,7 @@
 #include "core/knot/knot_words.hpp"
 #include "core/scene/phase.hpp"
 #include "experiments/live/live_run.hpp"
+#include "experiments/view/drawn_obstacles.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 #define IMPORTED(name) extern "C" __attribute__((import_module("live"), import_name(#name)))
@@ -124,6 +125,11 @@ EXPORTED(live_title) const char* live_title() {
 }
 EXPORTED(live_specimen) const char* live_specimen() {
   return give(printable(live.run->resolved().specimen.name));
+}
+/// What the obstacles look like, as JSON.
+EXPORTED(live_obstacles) const char* live_obstacles() {
+  const ResolvedScene& resolved = live.run->resolved();
+  return give(drawn_obstacles_json(resolved.scene.obstacles, resolved.model.length()));
 }
 EXPORTED(live_warnings) const char* live_warnings() { return give(live.run->take_warnings()); }
 

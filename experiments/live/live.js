@@ -32,13 +32,12 @@ class Growing {
 
 /** A log, as the viewer has it, that grows as the scene runs. */
 class LiveLog {
-  constructor({ scene, animal, layout, title, specimen, phases }) {
-    Object.assign(this, { name: scene.name, title, specimen, phases, layout, status: "runs" });
+  constructor({ scene, animal, layout, obstacles, title, specimen, phases }) {
+    Object.assign(this, { name: scene.name, obstacles, title, specimen, phases, layout, status: "runs" });
     this.frames = 0;
     this.bodies = animal.radius.length;
     this.animal = { length: animal.length[0], radius: animal.radius, arc: animal.arc, station: animal.station };
     this.plate = animal.wall[0] > 0;
-    this.obstacles = obstaclesOf(animal.obstacles);
     [this.step, this.interval, this.duration] = animal.clock;
     this.store = {};
     for (const [name] of layout) this.store[name] = new Growing();
@@ -102,23 +101,6 @@ class LiveLog {
 }
 for (const name of ["frameAt", "phaseName", "knotName", "field"]) LiveLog.prototype[name] = Log.prototype[name];
 
-/** Obstacles as the viewer has them, of the numbers of LiveRun::animal(). */
-function obstaclesOf(numbers) {
-  const found = [];
-  for (let at = 0; at < numbers.length;) {
-    if (numbers[at++] > 0) {
-      found.push({ name: "plane", point: numbers.slice(at, at + 3), normal: numbers.slice(at + 3, at + 6), half: numbers[at + 6], hole: numbers[at + 7] });
-      at += 8;
-      continue;
-    }
-    const [radius, closed, rim, count] = numbers.slice(at, at + 4);
-    at += 4;
-    found.push({ name: "strand", radius, closed: closed > 0, rim: rim > 0, points: d3.range(count).map((k) => numbers.slice(at + 3 * k, at + 3 * k + 3)) });
-    at += 3 * count;
-  }
-  return found;
-}
-
 class LiveViewer extends Viewer {
   constructor(log, ask) {
     super([log]);
@@ -154,11 +136,7 @@ class LiveViewer extends Viewer {
   /** Another scene. */
   adopt(log) {
     this.logs[0] = log;
-    const before = this.bodies[0];
-    this.scenes[0].remove(before.group);
-    before.geometry.dispose();
-    this.bodies[0] = new Body(log, false);
-    this.scenes[0].add(this.bodies[0].group);
+    this.embody();
     this.first = this.last = this.time = 0;
     this.following = true;
     this.drawn = 0;
@@ -166,13 +144,18 @@ class LiveViewer extends Viewer {
     this.fresh = true;
   }
 
-  /** What changes with the animal's size. */
-  remake() {
+  /** Puts a body of the log as it is now in place of the one that there was. */
+  embody() {
     const before = this.bodies[0];
     this.scenes[0].remove(before.group);
     before.geometry.dispose();
     this.bodies[0] = new Body(this.logs[0], false);
     this.scenes[0].add(this.bodies[0].group);
+  }
+
+  /** What changes with the animal's size. */
+  remake() {
+    this.embody();
     this.recolour();
   }
 

@@ -7,7 +7,6 @@
 
 #include "core/control/laws.hpp"
 #include "experiments/view/along_body.hpp"
-#include "experiments/view/drawn_plane.hpp"
 
 namespace hagfish {
 namespace {
@@ -188,29 +187,6 @@ std::span<const LiveArray> LiveRun::frame() {
 std::vector<LiveArray> LiveRun::animal() const {
   std::vector<double> radius;
   for (const Body& body : model_.bodies) radius.push_back(body.radius);
-  // Of each: 1 and the middle, normal, half side and hole of a plane's square, or 0, radius,
-  // whether it is closed and a rim, the number of points, and these.
-  std::vector<double> obstacles;
-  const auto add = [&obstacles](const Eigen::Vector3d& v) {
-    obstacles.insert(obstacles.end(), v.begin(), v.end());
-  };
-  const std::vector<Obstacle>& all = resolved_.scene.obstacles;
-  for (const Obstacle& one : all) {
-    const Plane* plane = one.plane();
-    obstacles.push_back(plane != nullptr ? 1 : 0);
-    if (plane != nullptr) {
-      const DrawnPlane square = drawn_plane(*plane, all, model_.length());
-      add(square.middle);
-      add(plane->normal);
-      obstacles.insert(obstacles.end(), {square.half, square.hole});
-      continue;
-    }
-    const Strand& strand = *one.strand();
-    obstacles.insert(obstacles.end(),
-                     {strand.radius, strand.closed ? 1.0 : 0.0, is_rim(strand, all) ? 1.0 : 0.0,
-                      static_cast<double>(strand.points.size())});
-    for (const Eigen::Vector3d& point : strand.points) add(point);
-  }
   const Scene& scene = resolved_.scene;
   return {{"length", {model_.length()}},
           {"radius", radius},
@@ -218,7 +194,6 @@ std::vector<LiveArray> LiveRun::animal() const {
           {"bending", joint_arcs(model_, Turn::bend)},
           {"twisting", joint_arcs(model_, Turn::twist)},
           {"station", resolved_.specimen.station},
-          {"obstacles", obstacles},
           {"wall", {scene.wall.present ? 1.0 : 0.0}},
           {"clock", {scene.time.step, scene.time.frame_interval, scene.time.duration}}};
 }

@@ -46,7 +46,7 @@ class LiveRun {
   /// The state, and means of forces since the last call.
   std::span<const LiveArray> frame();
 
-  /// What stays while the scene runs: length, radii, arcs, stations, obstacles.
+  /// What stays while the scene runs: length, radii, arcs, stations.
   std::vector<LiveArray> animal() const;
 
   bool over() const { return finished(sim_, resolved_.scene); }

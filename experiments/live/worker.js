@@ -4,7 +4,7 @@
 /** Arrays of a frame that the page gets, in one row of 32-bit floats; `contacts`, of any number, apart. */
 const SENT = ["time", "position", "phase", "knot", "clamped", "ends", "slide", "penetration", "head", "plate", "tip", "hand", "speed", "slack", "lambda",
   "command", "energy", "thigmotaxis", "active", "curvature", "twist", "contact"];
-const ANIMAL = ["length", "radius", "arc", "bending", "twisting", "station", "obstacles", "wall", "clock"];
+const ANIMAL = ["length", "radius", "arc", "bending", "twisting", "station", "wall", "clock"];
 const SLICE = 0.02; // s for which it steps before it looks at what the page asks
 const BATCH = 8; // steps between two looks at the clock
 const LONG_FRAME = 1000; // steps to the next frame for which a change does not wait
@@ -99,7 +99,7 @@ async function start(wanted) {
   runner.calls.live_animal();
   runner.calls.live_frame();
   const animal = Object.fromEntries(ANIMAL.map((name) => [name, Array.from(runner.array(name))]));
-  postMessage({ kind: "started", scene, animal, layout: SENT.map((name) => [name, runner.array(name).length]), title: runner.text("title"), specimen: runner.text("specimen"), phases: runner.lines("phases"), toml: runner.text("toml") });
+  postMessage({ kind: "started", scene, animal, layout: SENT.map((name) => [name, runner.array(name).length]), obstacles: JSON.parse(runner.text("obstacles")), title: runner.text("title"), specimen: runner.text("specimen"), phases: runner.lines("phases"), toml: runner.text("toml") });
   takeFrame();
   send();
 }

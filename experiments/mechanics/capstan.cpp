@@ -1,17 +1,17 @@
-#include "experiments/mechanics/capstan.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/mechanics/rod.hpp"
 
 namespace hagfish {
 
 Capstan lie_round_post(double link) {
-  const std::clock_t begin = std::clock();
+  const double begin = cpu_time();
   constexpr double rope = 0.05;  // cm: its radius; from the post's axis to its middle line it is 1
   constexpr double pull = 1;     // dyn
   constexpr double leg = 2;      // cm
@@ -35,7 +35,7 @@ Capstan lie_round_post(double link) {
   capstan.bodies = pulled.model().body_count();
   capstan.head = -pulled.solution().force[RowKind::head][0] / pull;
   capstan.press = pulled.press() / (std::numbers::pi * pull);
-  capstan.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  capstan.cpu = cpu_time() - begin;
   return capstan;
 }
 

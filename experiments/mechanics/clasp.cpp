@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <vector>
+
+#include "experiments/common/cpu_time.hpp"
 
 namespace hagfish {
 namespace {
@@ -73,7 +74,7 @@ double ClaspChain::tips(const Eigen::Matrix3Xd& centre) const {
 }
 
 Clasp hook(double link) {
-  const std::clock_t begin = std::clock();
+  const double begin = cpu_time();
   const ClaspChain both = clasp_chain(link);
   Pulled rope(both.chain, pulled_scene(radius, clasp_pull, 1e-3, clasp_apart),
               [&](const Kinematics&) { return both.loads; });
@@ -85,7 +86,7 @@ Clasp hook(double link) {
   clasp.tips = both.tips(rope.kin().centre);
   const int between = (both.first_end + both.second_begin) / 2;
   clasp.load = 1 - rope.force_behind(between).x() / clasp_pull;
-  clasp.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  clasp.cpu = cpu_time() - begin;
   return clasp;
 }
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <span>
 #include <stdexcept>
 
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/mechanics/rod.hpp"
 
 namespace hagfish {
@@ -87,7 +87,7 @@ std::vector<Eigen::Vector3d> loose_curve(const LooseKnotInput& input, double tai
 }
 
 LooseKnot pull_loose_knot(const LooseKnotInput& input) {
-  const std::clock_t begin = std::clock();
+  const double begin = cpu_time();
   const double link = std::sqrt(input.radius) / input.per_braid;
   const Rod material{
       .radius = input.radius, .bending = 1, .bending_damping = 0.1, .twisting = input.ratio};
@@ -118,7 +118,7 @@ LooseKnot pull_loose_knot(const LooseKnotInput& input) {
   knot.load = pull / (bend * bend);
   knot.integral =
       behind.dot(rod.kin().rotation[top].col(0)) / pull + 0.5 * top_bend * top_bend / pull;
-  knot.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  knot.cpu = cpu_time() - begin;
   return knot;
 }
 

@@ -15,15 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/mechanics/capstan.hpp"
 #include "experiments/mechanics/clasp.hpp"
 #include "experiments/mechanics/loose_knot.hpp"
-#include "experiments/mechanics/mirrored_states.hpp"
-#include "experiments/mechanics/mujoco_clasp.hpp"
-#include "experiments/mechanics/ply.hpp"
-#include "experiments/mechanics/released_rod.hpp"
-#include "experiments/mechanics/tight_knot.hpp"
-#include "experiments/mechanics/twisted_rod.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 namespace {
 

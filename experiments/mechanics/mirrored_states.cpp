@@ -1,4 +1,4 @@
-#include "experiments/mechanics/mirrored_states.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 #include <cmath>
 #include <cstdio>

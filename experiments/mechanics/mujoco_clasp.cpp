@@ -1,9 +1,9 @@
-#include "experiments/mechanics/mujoco_clasp.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/mechanics/clasp.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "mujoco_ref/mjcf.hpp"
@@ -44,7 +44,7 @@ Eigen::Matrix3Xd centres(const MujocoModel& rope, int bodies) {
 }  // namespace
 
 MujocoClasp hook_in_mujoco(double link, const MujocoRope& input) {
-  const std::clock_t begin = std::clock();
+  const double begin = cpu_time();
   ClaspChain both = clasp_chain(link);
   Model& model = both.chain.model;
   make_dense(model, input.density);
@@ -75,7 +75,7 @@ MujocoClasp hook_in_mujoco(double link, const MujocoRope& input) {
   check_stable(rope);
   for (int c = 0; c < rope.data()->ncon; ++c)
     clasp.overlap = std::max(clasp.overlap, -rope.data()->contact[c].dist);
-  clasp.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  clasp.cpu = cpu_time() - begin;
   return clasp;
 }
 

@@ -1,12 +1,12 @@
-#include "experiments/mechanics/ply.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/mechanics/rod.hpp"
 
 namespace hagfish {
@@ -96,7 +96,7 @@ std::pair<double, double> shape_of(const Pulled& rod) {
 }  // namespace
 
 Ply wind_up(const PlyInput& input) {
-  const std::clock_t begin = std::clock();
+  const double begin = cpu_time();
   const double radius = std::sqrt(force_at(input.angle) / pull);
   const double link = radius / input.per_radius;
   const double moment = moment_at(input.angle) / radius;
@@ -130,7 +130,7 @@ Ply wind_up(const PlyInput& input) {
   ply.radius = apart_by / radius;
   ply.force = pull * apart_by * apart_by / force_at(angle);
   ply.moment = rod.twisting_moment() * apart_by / moment_at(angle);
-  ply.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  ply.cpu = cpu_time() - begin;
   return ply;
 }
 

@@ -1,16 +1,16 @@
-#include "experiments/mechanics/released_rod.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <vector>
 
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/mechanics/rod.hpp"
 
 namespace hagfish {
 
 ReleasedRod release(TimeRule rule, int steps) {
-  const std::clock_t begin = std::clock();
+  const double begin = cpu_time();
   constexpr int bodies = 20;
   constexpr double length = 40;    // cm
   constexpr double bending = 400;  // dyn cm^2; with 1e-3 g/cm the slowest bend takes 4.5 s
@@ -31,8 +31,7 @@ ReleasedRod release(TimeRule rule, int steps) {
   scene.time.rule = rule;
   Pulled released(chain_of(rod, length / bodies, links), scene);
   for (int k = 0; k < steps; ++k) released.step();
-  return {released.kin().centre.rightCols<1>() / length,
-          static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
+  return {released.kin().centre.rightCols<1>() / length, cpu_time() - begin};
 }
 
 }  // namespace hagfish

@@ -1,12 +1,12 @@
-#include "experiments/mechanics/tight_knot.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/mechanics/loose_knot.hpp"
 #include "experiments/mechanics/rod.hpp"
 
@@ -99,7 +99,7 @@ Pulled rope_along(const Curve& curve, double link) {
 }  // namespace
 
 TightKnot tighten(const std::string& type, double link) {
-  const std::clock_t begin = std::clock();
+  const double begin = cpu_time();
   Pulled rope = rope_along(start_of(type), coarse);
   rope.relax(1e-3, most_steps);
   // Again with shorter bodies and without most of the tails.
@@ -120,7 +120,7 @@ TightKnot tighten(const std::string& type, double link) {
   knot.bodies = rope.model().body_count();
   const Eigen::Matrix3Xd& centre = rope.kin().centre;
   knot.shortening = link * (knot.bodies - 1) - (centre.rightCols<1>() - centre.col(0)).norm();
-  knot.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  knot.cpu = cpu_time() - begin;
   return knot;
 }
 

@@ -1,12 +1,12 @@
-#include "experiments/mechanics/twisted_rod.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/mechanics/held_rod.hpp"
 
 namespace hagfish {
@@ -18,7 +18,7 @@ constexpr double tension = 5;     // dyn: the length is 4.5 times sqrt(B / T)
 
 /// The twist of each joint, in parts of that of theory, at which the rod gives way.
 GivesWay first_motion(const std::function<double(double)>& stiffness_at) {
-  const std::clock_t begin = std::clock();
+  const double begin = cpu_time();
   const auto stable = [&](double twist) { return stiffness_at(twist) > 0; };
   double low = 0.5;
   double high = 1.3;
@@ -27,7 +27,7 @@ GivesWay first_motion(const std::function<double(double)>& stiffness_at) {
     const double middle = 0.5 * (low + high);
     (stable(middle) ? low : high) = middle;
   }
-  return {0.5 * (low + high), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
+  return {0.5 * (low + high), cpu_time() - begin};
 }
 
 /// The chain with these links, whose twist joints turn as a moment (dyn cm) makes them.

@@ -10,7 +10,6 @@
 #include "core/input/input_error.hpp"
 #include "core/input/input_text.hpp"
 #include "experiments/mujoco/obstacle_geoms.hpp"
-#include "experiments/view/drawn_plane.hpp"
 
 namespace hagfish {
 namespace {
@@ -80,11 +79,11 @@ std::vector<mjvGeom> FramePictures::obstacles(std::size_t frame, bool floors) co
   if (log_.resolved.scene.wall.present) {
     geoms.push_back(plate_geom(log_.clamped(static_cast<Eigen::Index>(frame))));
   }
-  const std::vector<Obstacle>& all = log_.resolved.scene.obstacles;
-  for (const Obstacle& obstacle : all) {
-    if (!floors && obstacle.plane() != nullptr && is_floor(*obstacle.plane())) continue;
-    std::ranges::copy(obstacle_geoms(obstacle, all, log_.model.length(), view_.toward()),
-                      std::back_inserter(geoms));
+  for (const DrawnObstacle& obstacle :
+       drawn_obstacles(log_.resolved.scene.obstacles, log_.model.length())) {
+    const auto* square = std::get_if<DrawnSquare>(&obstacle);
+    if (!floors && square != nullptr && square->floor) continue;
+    std::ranges::copy(obstacle_geoms(obstacle, view_.toward()), std::back_inserter(geoms));
   }
   return geoms;
 }

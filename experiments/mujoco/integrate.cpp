@@ -1,16 +1,16 @@
-#include "experiments/mujoco/integrate.hpp"
+#include "experiments/mujoco/studies.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/step/step.hpp"
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/common/terminal.hpp"
 #include "mujoco_ref/rollout.hpp"
 
@@ -41,8 +41,6 @@ constexpr std::array<Method, 5> methods{
      {"mujoco_euler", "MuJoCo Euler", mjINT_EULER, {}, 2e-4},
      {"mujoco_implicit", "MuJoCo implicit", mjINT_IMPLICIT, {}, 2e-4},
      {"mujoco_rk4", "MuJoCo RK4", mjINT_RK4, {}, 4e-4}}};
-
-double cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Ending {
   State state;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/contact/obstacles.hpp"
-#include "experiments/view/drawn_plane.hpp"
 
 namespace hagfish {
 namespace {
@@ -36,21 +35,20 @@ mjvGeom geom_at(mjtGeom type, const Vector3d& size, const Vector3d& at, const Ve
 
 /// The plate behind a square of a plane: one box, or one to each side of its hole and in the
 /// corners between them strips.
-std::vector<mjvGeom> plate_geoms(const DrawnPlane& square, const Vector3d& normal,
-                                 const Rgba& colour) {
+std::vector<mjvGeom> plate_geoms(const DrawnSquare& square, const Rgba& colour) {
+  const auto& [at_middle, normal, half, hole, floor] = square;
   const Vector3d up = std::abs(normal.z()) < 0.9
                           ? (Vector3d::UnitZ() - normal.z() * normal).normalized()
                           : Vector3d::UnitY();
   const Vector3d across = up.cross(normal);
-  const Vector3d middle = square.middle - 0.5 * plate_thickness * normal;
+  const Vector3d middle = at_middle - 0.5 * plate_thickness * normal;
   std::vector<mjvGeom> geoms;
   // From `left` to `right` of the middle and `low` to `high`.
   const auto add = [&](double left, double right, double low, double high) {
-    const Vector3d half(0.5 * (right - left), 0.5 * (high - low), 0.5 * plate_thickness);
+    const Vector3d halves(0.5 * (right - left), 0.5 * (high - low), 0.5 * plate_thickness);
     const Vector3d at = middle + 0.5 * (left + right) * across + 0.5 * (low + high) * up;
-    geoms.push_back(geom_at(mjGEOM_BOX, half, at, up, normal, colour));
+    geoms.push_back(geom_at(mjGEOM_BOX, halves, at, up, square.normal, colour));
   };
-  const auto& [_, half, hole] = square;
   if (hole == 0) {
     add(-half, half, -half, half);
     return geoms;
@@ -72,19 +70,16 @@ std::vector<mjvGeom> plate_geoms(const DrawnPlane& square, const Vector3d& norma
 }  // namespace
 
 mjvGeom plate_geom(bool holds_head) {
-  return plate_geoms({Vector3d::Zero(), drawn_plate_half, 0}, Vector3d::UnitX(),
+  return plate_geoms({Vector3d::Zero(), Vector3d::UnitX(), drawn_plate_half},
                      holds_head ? plate_colour : pale_plate_colour)
       .front();
 }
 
-std::vector<mjvGeom> obstacle_geoms(const Obstacle& obstacle,
-                                    const std::vector<Obstacle>& obstacles, double length,
-                                    const Vector3d& toward) {
-  if (const Plane* plane = obstacle.plane()) {
-    return plate_geoms(drawn_plane(*plane, obstacles, length), plane->normal, plate_colour);
+std::vector<mjvGeom> obstacle_geoms(const DrawnObstacle& obstacle, const Vector3d& toward) {
+  if (const auto* square = std::get_if<DrawnSquare>(&obstacle)) {
+    return plate_geoms(*square, plate_colour);
   }
-  const Strand& strand = *obstacle.strand();
-  const bool cut = strand.closed && !is_rim(strand, obstacles);
+  const auto& [strand, cut] = std::get<DrawnTube>(obstacle);
   std::vector<mjvGeom> geoms;
   const Eigen::Matrix3Xd curve = strand_curve(strand);
   const Vector3d centre = curve.rowwise().mean();

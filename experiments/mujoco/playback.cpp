@@ -1,4 +1,4 @@
-#include "experiments/mujoco/playback.hpp"
+#include "experiments/mujoco/studies.hpp"
 
 #include <fmt/format.h>
 

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <functional>
 #include <stdexcept>
 
 #include "core/run/drive.hpp"
+#include "experiments/common/cpu_time.hpp"
 #include "experiments/mujoco/stress_mujoco.hpp"
 #include "solvers/box_qp.hpp"
 
@@ -51,8 +51,6 @@ const StressMethod& method_called(const std::string& name) {
   return *found;
 }
 
-double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 /// Whether the run came to its end in time. Throws StepError as take_step.
 bool run_in_core(const Model& model, const Scene& scene, const char* qp,
                  const std::function<bool()>& out_of_time, StressJudge& judge) {
@@ -80,8 +78,8 @@ bool run_in_core(const Model& model, const Scene& scene, const char* qp,
 
 Status run_cell(const Model& model, const Scene& scene, const StressMethod& method,
                 double cpu_limit, StressJudge& judge) {
-  const double begin = processor_time();
-  const auto out_of_time = [&] { return processor_time() - begin > cpu_limit; };
+  const double begin = cpu_time();
+  const auto out_of_time = [&] { return cpu_time() - begin > cpu_limit; };
   const bool core = method.integrator == core_stepper;
   if (const std::string why = core ? "" : not_in_mujoco(scene); !why.empty()) {
     return {Outcome::not_applicable, why};
@@ -127,9 +125,9 @@ StressResult stress(const Scene& scene, const Model& model, const std::string& m
                     double cpu_limit) {
   const State first = start_state(model, scene.start);
   StressJudge judge(model, scene, first, mechanical_energy(model, first, kinematics(model, first)));
-  const double begin = processor_time();
+  const double begin = cpu_time();
   const Status status = run_cell(model, scene, method_called(method), cpu_limit, judge);
-  return {status, judge.figures(), processor_time() - begin};
+  return {status, judge.figures(), cpu_time() - begin};
 }
 
 }  // namespace hagfish

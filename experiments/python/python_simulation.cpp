@@ -89,7 +89,7 @@ PythonSimulation::PythonSimulation(const PythonRun& run)
       qp_(run.qp) {
   hold_views();
   if (!run.log.empty()) {
-    log_.emplace(run.log, run.force, log_header(resolved, model, run.qp, run.command), model,
+    log_.emplace(run.log, run.force, log_header(resolved, run.qp, run.command), model,
                  resolved.scene);
   }
 }

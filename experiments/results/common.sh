@@ -36,3 +36,17 @@ swept() {
     draw taken.py "$4" "$2/logs"
   done
 }
+
+# once NAME ARGUMENT...: a run whose log is kept in out/runs, made once. One that fails is a result, too.
+once() {
+  [[ -e $out/runs/$1.done ]] && return
+  mkdir -p "$out/runs"
+  "$hagfish" run "${@:2}" --out "$out/runs/$1.h5" --force --quiet || (($? == 1))
+  touch "$out/runs/$1.done"
+}
+
+# swept_animals: the page's grid animals.toml with ten animals drawn at random, into out/animals.
+swept_animals() {
+  { cat "$grids/animals.toml" && /usr/bin/python3 "$root/experiments/results/animals.py" 10; } >"$out/animals.toml"
+  "$hagfish" sweep "$out/animals.toml" --out "$out/animals"
+}

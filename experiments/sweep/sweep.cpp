@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
-#include <ctime>
-#include <exception>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "core/input/input_error.hpp"
+#include "experiments/common/cpu_time.hpp"
+#include "experiments/common/in_parallel.hpp"
 #include "experiments/sweep/sweep_run.hpp"
 
 namespace hagfish {
@@ -26,51 +24,15 @@ std::vector<std::string> heading_of(const Grid& grid) {
   return heading;
 }
 
-double process_cpu_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 /// What threads share.
 class Sweep {
  public:
   Sweep(const Grid& grid, const SweepOptions& options, SweepTable& table, SweepOutcome& outcome)
-      : grid_(grid),
-        options_(options),
-        table_(table),
-        outcome_(outcome),
-        missing_(table.missing()) {}
+      : grid_(grid), options_(options), table_(table), outcome_(outcome) {}
 
-  /// One thread takes cells until there are none, or the sweep is to end.
-  void work() {
-    try {
-      for (std::size_t k = next_++; k < missing_.size() && !ending(); k = next_++) {
-        run_cell(missing_[k]);
-      }
-    } catch (...) {
-      const std::scoped_lock lock(table_mutex_);
-      if (!error_) error_ = std::current_exception();
-      failed_ = true;
-    }
-  }
-
-  /// After all threads: throws what ended one of them.
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-
- private:
-  bool ending() const { return failed_ || options_.interrupted(); }
-
-  fs::path log_of(std::size_t cell) const {
-    return options_.folder / "logs" / fmt::format("{}.h5", cell);
-  }
-
-  std::optional<SweepRun> run(std::size_t cell, const ResolvedScene& resolved, bool keep) {
-    std::optional<SweepLog> log;
-    if (keep) log.emplace(SweepLog{log_of(cell), options_.typed, hdf5_});
-    return run_for_summary(
-        resolved, [this] { return ending(); }, log);
-  }
-
+  /// Makes the row of a cell; none where the sweep is interrupted.
   void run_cell(std::size_t cell) {
+    if (options_.interrupted()) return;
     const std::vector<std::size_t> places = grid_.places(cell);
     std::optional<SweepRun> done;
     try {
@@ -91,6 +53,17 @@ class Sweep {
     if (done) add(cell, grid_.values(places), *done);
   }
 
+ private:
+  fs::path log_of(std::size_t cell) const {
+    return options_.folder / "logs" / fmt::format("{}.h5", cell);
+  }
+
+  std::optional<SweepRun> run(std::size_t cell, const ResolvedScene& resolved, bool keep) {
+    std::optional<SweepLog> log;
+    if (keep) log.emplace(SweepLog{log_of(cell), options_.typed, hdf5_});
+    return run_for_summary(resolved, options_.interrupted, log);
+  }
+
   void add(std::size_t cell, std::vector<std::string> fields, const SweepRun& run) {
     for (const auto& [name, value] : run.summary.fields()) fields.push_back(value);
     const std::scoped_lock lock(table_mutex_);
@@ -104,34 +77,28 @@ class Sweep {
   const SweepOptions& options_;
   SweepTable& table_;
   SweepOutcome& outcome_;
-  std::vector<std::size_t> missing_;
-  std::atomic<std::size_t> next_ = 0;
-  std::atomic<bool> failed_ = false;
   std::mutex table_mutex_, hdf5_;
-  std::exception_ptr error_;
 };
 
 }  // namespace
 
 SweepOutcome run_sweep(const Grid& grid, const SweepOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const double cpu_begin = process_cpu_time();
+  const double cpu_begin = cpu_time();
   claim_folder(options.folder, grid_identity(grid));
   if (grid.keep != KeptLogs::none) fs::create_directories(options.folder / "logs");
   SweepTable table(options.folder, options.part, grid.size(), heading_of(grid));
+  const std::vector<std::size_t> missing = table.missing();
   SweepOutcome outcome;
   outcome.cells = table.cell_count();
-  outcome.before = outcome.cells - table.missing().size();
+  outcome.before = outcome.cells - missing.size();
   Sweep sweep(grid, options, table, outcome);
-  {
-    std::vector<std::jthread> threads;
-    for (int t = 0; t < options.threads; ++t) threads.emplace_back([&sweep] { sweep.work(); });
-  }
-  sweep.rethrow();
+  in_parallel(static_cast<int>(missing.size()), options.threads,
+              [&](int k) { sweep.run_cell(missing[k]); });
   if (outcome.whole()) table.finish();
   outcome.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  outcome.cpu = process_cpu_time() - cpu_begin;
+  outcome.cpu = cpu_time() - cpu_begin;
   return outcome;
 }
 

@@ -5,13 +5,12 @@
 #include <ctime>
 #include <new>
 
-#include "core/log/build_info.hpp"
 #include "core/log/log_writer.hpp"
 #include "core/run/drive.hpp"
 #include "experiments/common/failure.hpp"
+#include "experiments/common/run_header.hpp"
 #include "experiments/judge/run_watch.hpp"
 #include "experiments/sweep/sweep.hpp"
-#include "mujoco_ref/mjcf.hpp"
 
 namespace hagfish {
 namespace {
@@ -19,18 +18,11 @@ namespace {
 /// The log of one run, where there is one to be written.
 class KeptLog {
  public:
-  KeptLog(const std::optional<SweepLog>& log, const ResolvedScene& resolved, const Model& model)
-      : log_(log) {
+  KeptLog(const std::optional<SweepLog>& log, const ResolvedScene& resolved) : log_(log) {
     if (!log_) return;
-    const Scene& scene = resolved.scene;
     const std::scoped_lock lock(log_->hdf5);
-    LogHeader header;
-    header.command = log_->typed;
-    header.scene = scene_to_toml(scene, resolved.specimen);
-    header.qp = sweep_qp;
-    header.libraries = build_libraries();
-    header.mjcf = mjcf_files(model, scene.contact.least_arc, scene.time.step);
-    writer_ = std::make_unique<LogWriter>(log_->file, true, header, model, scene);
+    const LogHeader header = log_header(resolved, sweep_qp, log_->typed);
+    writer_ = std::make_unique<LogWriter>(log_->file, true, header, resolved.model, resolved.scene);
   }
   ~KeptLog() {
     if (!writer_) return;
@@ -69,7 +61,7 @@ std::optional<SweepRun> run_for_summary(const ResolvedScene& resolved,
                                         const std::optional<SweepLog>& log) {
   const Scene& scene = resolved.scene;
   const Model& model = resolved.model;
-  KeptLog kept(log, resolved, model);
+  KeptLog kept(log, resolved);
   Judge judge(model, scene);
   RunWatch watch(model, scene, judge);
   const double begin = thread_cpu_time();

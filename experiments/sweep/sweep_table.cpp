@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <utility>
@@ -25,13 +24,6 @@ constexpr const char* identity_name = "sweep.toml";
 
 [[noreturn]] void throw_system_error(const fs::path& file, const char* what) {
   throw FileError(file.string() + ": cannot be " + what + ": " + std::strerror(errno));
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw FileError(file.string() + ": cannot be read");
-  return text;
 }
 
 /// The first line in which two texts differ.

@@ -19,7 +19,7 @@ function splinePoint(centres, offset, bodies, segment, t, out) {
   }
 }
 
-/** A square of a plane, cm, seen from before it alone: a plate with a hole, or a floor. */
+/** A square of a plane (view/drawn_obstacles.hpp), seen from before it alone: a plate with a hole, or a floor. */
 function planeMesh({ point, normal, half, hole }) {
   const square = new THREE.Shape(), material = new THREE.MeshPhongMaterial({ color: 0xb8c2cc });
   [[-half, -half], [half, -half], [half, half], [-half, half]].forEach(([x, y], k) => (k ? square.lineTo(x, y) : square.moveTo(x, y)));
@@ -41,8 +41,8 @@ function obstacleMesh(obstacle) {
     group.add(planeMesh(obstacle));
     return group;
   }
-  const points = obstacle.points.map((p) => new THREE.Vector3(...p)), { radius, closed } = obstacle, clear = closed && !obstacle.rim;
-  const material = new THREE.MeshPhongMaterial(clear ? { color: 0x9ab0ca, transparent: true, opacity: 0.3, depthWrite: false } : { color: 0x6b7a8f });
+  const points = obstacle.points.map((p) => new THREE.Vector3(...p)), { radius, closed, ring } = obstacle;
+  const material = new THREE.MeshPhongMaterial(ring ? { color: 0x9ab0ca, transparent: true, opacity: 0.3, depthWrite: false } : { color: 0x6b7a8f });
   const add = (geometry, at) => { const mesh = new THREE.Mesh(geometry, material); if (at) mesh.position.copy(at); group.add(mesh); };
   if (points.length > 1) {
     const curve = new THREE.CatmullRomCurve3(points, closed, "catmullrom", 0.5); // the uniform one

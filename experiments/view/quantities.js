@@ -3,7 +3,7 @@
 
 const TYPES = { f4: Float32Array, u1: Uint8Array, u4: Uint32Array, i2: Int16Array };
 
-/** The numbers of an array of view_data.hpp. */
+/** The numbers of an array of view_page.hpp. */
 function decode(packed) {
   const type = Object.keys(TYPES).find((name) => name in packed);
   const bytes = Uint8Array.from(atob(packed[type]), (c) => c.charCodeAt(0));

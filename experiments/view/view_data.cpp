@@ -1,4 +1,4 @@
-#include "experiments/view/view_data.hpp"
+#include "experiments/view/view_page.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -12,7 +12,7 @@
 #include "experiments/export/frame_contacts.hpp"
 #include "experiments/judge/replay.hpp"
 #include "experiments/view/along_body.hpp"
-#include "experiments/view/drawn_plane.hpp"
+#include "experiments/view/drawn_obstacles.hpp"
 
 namespace hagfish {
 namespace {
@@ -71,29 +71,6 @@ Json animal(const LogContents& log) {
   return json;
 }
 
-/// Obstacles but the head plate.
-Json obstacles(const Scene& scene, double length) {
-  const auto numbers = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
-  Json all = Json::array();
-  for (const Obstacle& one : scene.obstacles) {
-    Json& json = all.emplace_back(Json{{"name", printable(one.name)}});
-    if (const Plane* plane = one.plane()) {
-      const DrawnPlane square = drawn_plane(*plane, scene.obstacles, length);
-      json["point"] = numbers(square.middle);
-      json["normal"] = numbers(plane->normal);
-      json["half"] = square.half;
-      json["hole"] = square.hole;
-      continue;
-    }
-    const Strand& strand = *one.strand();
-    json["radius"] = strand.radius;
-    json["closed"] = strand.closed;
-    json["rim"] = is_rim(strand, scene.obstacles);
-    for (const Eigen::Vector3d& point : strand.points) json["points"].push_back(numbers(point));
-  }
-  return all;
-}
-
 /// The slide up to each frame: ways of head end and tail end, what taper asks of the latter, way of
 /// the curvature, cm.
 Json slide_so_far(const LogContents& log) {
@@ -112,15 +89,13 @@ Json slide_so_far(const LogContents& log) {
 
 /// Phases and knot types as places in lists of their names.
 void add_stages(const LogContents& log, Json& json) {
-  const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
-  const std::vector<std::int64_t> v2 = log.h5.integers("/knot/v2");
+  const std::vector<KnotInvariants> types = logged_knots(log);
   std::vector<std::string> knots;
   std::vector<std::uint8_t> phase, knot, clamped;
   for (std::size_t f = 0; f < log.time.size(); ++f) {
     phase.push_back(static_cast<std::uint8_t>(log.phase[f]));
     clamped.push_back(log.clamped(static_cast<Eigen::Index>(f)) ? 1 : 0);
-    const std::string name =
-        knot_words({static_cast<int>(determinant[f]), static_cast<int>(v2[f])});
+    const std::string name = knot_words(types[f]);
     auto found = std::ranges::find(knots, name);
     // A log of no sense may have any number of types: one byte names the first 255.
     if (found == knots.end() && knots.size() < 255) found = knots.insert(found, name);
@@ -163,7 +138,8 @@ Json view_data(const LogContents& log, const std::string& name) {
             {"specimen", printable(log.resolved.specimen.name)},
             {"status", printable(log.h5.root_text("status"))},
             {"plate", log.resolved.scene.wall.present},
-            {"obstacles", obstacles(log.resolved.scene, log.model.length())},
+            {"obstacles",
+             Json::parse(drawn_obstacles_json(log.resolved.scene.obstacles, log.model.length()))},
             {"animal", animal(log)},
             {"time", floats(log.time)}};
   add_stages(log, json);

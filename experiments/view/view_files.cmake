@@ -11,7 +11,7 @@ function(hagfish_view_files OUT)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/view_files.cpp)
   # By way of a second file, so that an unchanged text recompiles nothing.
   file(WRITE ${source}.new "// Written by view_files.cmake from experiments/view/.
-#include \"experiments/view/view_files.hpp\"
+#include \"experiments/view/view_page.hpp\"
 
 #include <stdexcept>
 #include <string>

@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "core/log/hdf5/hdf5_error.hpp"
-#include "experiments/view/view_files.hpp"
 
 namespace hagfish {
 namespace {

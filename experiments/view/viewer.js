@@ -137,7 +137,7 @@ class Viewer {
       for (let b = 0; b < position.length / 3; b += 10) add(b);
       for (let b = bodies - 1; b < position.length / 3; b += bodies) add(b); // the tail goes furthest
       // A floor may end out of sight.
-      for (const { points: along, point, half } of log.obstacles) if (along || half < log.animal.length / 2) for (const p of along || [point]) points.push(new THREE.Vector3(...p));
+      for (const { points: along, point, floor } of log.obstacles) if (!floor) for (const p of along || [point]) points.push(new THREE.Vector3(...p));
       if (log.plate) for (const y of [-2.6, 2.6]) for (const z of [-2.6, 2.6]) points.push(new THREE.Vector3(0, y, z));
     }
     const middle = (axis) => { const [low, high] = d3.extent(points, (p) => place(axis, p)); return (low + high) / 2; };

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "experiments/mechanics/released_rod.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 namespace hagfish::convergence_test {
 

@@ -1,8 +1,8 @@
 // A twisted rod under tension that has wound up a loop of itself: its pull and moment are known
-// functions of the angle of its strands (experiments/mechanics/ply.hpp).
+// functions of the angle of its strands (experiments/mechanics/mechanics.hpp).
 #include <gtest/gtest.h>
 
-#include "experiments/mechanics/ply.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 namespace hagfish::ply_test {
 

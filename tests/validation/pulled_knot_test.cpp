@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/knot/knot.hpp"
-#include "experiments/mechanics/tight_knot.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 #include "tests/support/chain_runs.hpp"
 #include "tests/support/stored_states.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "experiments/mechanics/twisted_rod.hpp"
+#include "experiments/mechanics/mechanics.hpp"
 
 namespace hagfish::twisted_rod_test {
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -93,15 +92,8 @@ CurveBends bends_along(const Eigen::Matrix3Xd& curve, Eigen::Index stations) {
 }
 
 RigidMotion nearest_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  const Eigen::Vector3d a = from.rowwise().mean(), b = to.rowwise().mean();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd((to.colwise() - b) * (from.colwise() - a).transpose(),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
-  sign[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  RigidMotion motion;
-  motion.rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  motion.shift = b - motion.rotation * a;
-  return motion;
+  const Eigen::Matrix4d motion = Eigen::umeyama(from, to, false);
+  return {motion.topLeftCorner<3, 3>(), motion.topRightCorner<3, 1>()};
 }
 
 }  // namespace hagfish

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "experiments/design/program_fit.hpp"
 #include "experiments/film/fit/block_arrow.hpp"
 #include "experiments/film/fit/film_begin.hpp"
 #include "experiments/film/fit/film_prior.hpp"
@@ -30,12 +31,6 @@ constexpr double told_by_points = 0.2;
 constexpr double pose_ridge = 1e-9;
 /// Of the same: added to the diagonal, so that steps of what nothing tells are none.
 constexpr double untold = 1e-13;
-
-std::vector<double> even(int count, double last) {
-  std::vector<double> knots(count);
-  for (int k = 0; k < count; ++k) knots[k] = last * k / (count - 1);
-  return knots;
-}
 
 class Fit {
  public:

@@ -74,7 +74,7 @@ int branch_off(const BranchOptions& options, const std::string& typed) {
                     "(time.duration = {:g} s; use --time for an earlier branch)",
                     options.log, time, resolved.scene.time.duration));
   }
-  LogHeader header = log_header(resolved, model, run.qp, typed);
+  LogHeader header = log_header(resolved, run.qp, typed);
   header.branched_from = fmt::format("{}, step {}, t = {:g} s", options.log, step, time);
   header.past = run.past;
   header.past.push_back({h5.root_text("scene"), step});

@@ -5,13 +5,12 @@
 #include <cstdio>
 
 #include "core/input/input_text.hpp"
-#include "experiments/audit/audit.hpp"
+#include "experiments/audit/compare_logs.hpp"
 #include "experiments/common/csv.hpp"
 #include "experiments/common/failure.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/program/run_again.hpp"
 
 namespace hagfish {
 namespace {

@@ -25,10 +25,9 @@ struct FiguresOptions {
 
 /// Since when the knot has been there that is held from frame `held` on, s.
 double tied_since(const LogContents& log, std::size_t held) {
-  const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant"),
-                                  v2 = log.h5.integers("/knot/v2");
+  const std::vector<KnotInvariants> types = logged_knots(log);
   std::size_t f = held;
-  while (f > 0 && determinant[f - 1] == determinant[held] && v2[f - 1] == v2[held]) --f;
+  while (f > 0 && types[f - 1] == types[held]) --f;
   return log.time[f];
 }
 

@@ -10,6 +10,7 @@
 #include "core/log/reading/log_contents.hpp"
 #include "core/log/reading/logged_run.hpp"
 #include "experiments/export/swept_skin.hpp"
+#include "experiments/judge/replay.hpp"
 #include "experiments/program/program.hpp"
 
 namespace hagfish {
@@ -43,14 +44,12 @@ struct LogInfo {
 std::vector<PhaseStart> phase_starts(const LogContents& log) {
   const std::vector<double> head_end = log.h5.doubles("/knot/head_end");
   const std::vector<double> tail_end = log.h5.doubles("/knot/tail_end");
-  const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
-  const std::vector<std::int64_t> v2 = log.h5.integers("/knot/v2");
+  const std::vector<KnotInvariants> types = logged_knots(log);
   std::vector<PhaseStart> starts;
   for (std::size_t f = 0; f < log.time.size(); ++f) {
     if (f == 0 || log.phase[f] != log.phase[f - 1]) {
-      const KnotInvariants type{static_cast<int>(determinant[f]), static_cast<int>(v2[f])};
-      starts.push_back({phase_name(static_cast<Phase>(log.phase[f])), log.time[f], knot_name(type),
-                        head_end[f], tail_end[f]});
+      starts.push_back({phase_name(static_cast<Phase>(log.phase[f])), log.time[f],
+                        knot_name(types[f]), head_end[f], tail_end[f]});
     }
   }
   return starts;

@@ -43,7 +43,7 @@ int run_anew(NewRunOptions options, const std::string& typed) {
   if (options.run.out.empty()) {
     options.run.out = fs::path(options.scene).stem().string() + ".h5";
   }
-  LogHeader header = log_header(resolved, model, qp, typed);
+  LogHeader header = log_header(resolved, qp, typed);
   header.level = log_level_called(options.level);
   LogWriter log(options.run.out, options.run.force, header, model, scene);
   warn_of_odd_things(resolved);
@@ -65,7 +65,7 @@ int resume(NewRunOptions options, const std::string& typed) {
   const LoggedRun run = logged_run(h5);
   if (h5.root_text("status") == "complete") throw FileError(h5.file() + ": the run is complete");
   const Scene& scene = run.resolved.scene;
-  LogHeader header = log_header(run.resolved, run.resolved.model, run.qp, typed);
+  LogHeader header = log_header(run.resolved, run.qp, typed);
   header.level = level_of(h5);
   header.past = run.past;
   if (!run.past.empty()) header.branched_from = h5.root_text("branched_from");

@@ -5,7 +5,6 @@
 #include "core/input/input_text.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/program/program.hpp"
-#include "experiments/view/view_data.hpp"
 #include "experiments/view/view_page.hpp"
 
 namespace hagfish {

@@ -1,4 +1,4 @@
-#include "experiments/mujoco/compare.hpp"
+#include "experiments/mujoco/studies.hpp"
 
 #include <optional>
 

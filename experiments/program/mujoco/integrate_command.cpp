@@ -1,4 +1,4 @@
-#include "experiments/mujoco/integrate.hpp"
+#include "experiments/mujoco/studies.hpp"
 
 #include <algorithm>
 

@@ -10,6 +10,7 @@
 #include "core/log/hdf5/output_file.hpp"
 #include "experiments/common/terminal.hpp"
 #include "experiments/common/text_file.hpp"
+#include "experiments/judge/replay.hpp"
 #include "experiments/mujoco/encoder.hpp"
 #include "experiments/mujoco/frame_picture.hpp"
 #include "experiments/program/program.hpp"
@@ -51,9 +52,7 @@ std::vector<std::size_t> film_frames(const LogContents& log, double rate, double
   return frames;
 }
 
-std::string words_of(const LogContents& log, const std::vector<std::int64_t>& determinant,
-                     const std::vector<std::int64_t>& v2, std::size_t frame) {
-  const KnotInvariants type{static_cast<int>(determinant[frame]), static_cast<int>(v2[frame])};
+std::string words_of(const LogContents& log, const KnotInvariants& type, std::size_t frame) {
   return fmt::format("t = {:.2f} s   {}   {}", log.time[frame],
                      phase_name(static_cast<Phase>(log.phase[frame])), knot_words(type));
 }
@@ -77,8 +76,7 @@ int movie(const MovieOptions& options) {
     pictures.add(frames[k], shown);
   }
   pictures.fit(shown, size, view, true);
-  const std::vector<std::int64_t> determinant = log.h5.integers("/knot/determinant");
-  const std::vector<std::int64_t> v2 = log.h5.integers("/knot/v2");
+  const std::vector<KnotInvariants> types = logged_knots(log);
   const bool progress = !options.quiet && ::isatty(::fileno(stderr)) != 0;
   note_signals();
   std::error_code ignored;
@@ -87,8 +85,8 @@ int movie(const MovieOptions& options) {
     FilmEncoder film(file.partial(), format, size.width, size.height, rate);
     for (std::size_t k = 0; k < frames.size(); ++k) {
       if (interrupted()) throw std::runtime_error(options.out + ": interrupted");
-      film.add(
-          pictures.draw(*renderer, frames[k], view, words_of(log, determinant, v2, frames[k])));
+      const std::string words = words_of(log, types[frames[k]], frames[k]);
+      film.add(pictures.draw(*renderer, frames[k], view, words));
       if (progress) say("\r{}: picture {} of {}", options.out, k + 1, frames.size());
     }
     film.finish();

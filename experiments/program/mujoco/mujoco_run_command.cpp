@@ -74,7 +74,7 @@ int run_in_mujoco(const MujocoRunOptions& options, const std::string& typed) {
   const Scene& scene = begun.resolved.scene;
   check_sense(begun.resolved, options.run.force);
   MujocoLoop loop(begun.resolved.model, scene, options.mujoco);
-  LogHeader header = log_header(begun.resolved, begun.resolved.model, "active-set", typed);
+  LogHeader header = log_header(begun.resolved, "active-set", typed);
   header.simulator = fmt::format("MuJoCo {}", mj_versionString());
   LogWriter log(options.run.out, options.run.force, header, begun.resolved.model, scene);
   return take_run(begun.resolved.model, scene, std::move(begun.sim), options.run, log,

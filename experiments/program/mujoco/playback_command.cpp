@@ -1,4 +1,4 @@
-#include "experiments/mujoco/playback.hpp"
+#include "experiments/mujoco/studies.hpp"
 
 #include "core/log/hdf5/output_file.hpp"
 #include "experiments/program/program.hpp"

@@ -11,7 +11,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import Motion, apart, beyond, cpu_of, distance, handles_of, mark_presets, moments_of, name_of, pareto, pick, places_of, presets, shown
+from accuracy import Motion, apart, beyond, cpu_of, distance, handles_of, mark_presets, moments_of, name_of, pareto, pick, places_of, presets
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
@@ -158,7 +158,7 @@ def steps_table(rows: Rows, out: Path) -> None:
                 continue
             halves = [step for step in own if 2 * step in own and step > 2 * min(own)]  # the smallest make the limit, or are near it
             orders = [np.log2(own[2 * step][f"by_step_{measure}"] / own[step][f"by_step_{measure}"]) for step in halves]
-            cells = [shown(own[step][f"by_step_{measure}"], ".2g") if step in own else "" for step in STEPS]
+            cells = [tables.shown(own[step][f"by_step_{measure}"], ".2g") if step in own else "" for step in STEPS]
             body.append([LAWS[law], MEASURES[measure], look.label, *cells, tables.span(orders, ".1f"),
                          f"{own[5.0]['cpu_s']:.2g}" if 5.0 in own else ""])
     tables.write_table(out, "contracting_steps", ["slide by", "of", "method", *(f"off at {step:g} ms, %" for step in STEPS), "order",
@@ -170,7 +170,7 @@ def meshes_table(rows: Rows, out: Path) -> None:
     body = []
     for row in still:
         finer = pick(still, law=row["law"], bodies=2 * row["bodies"])
-        body.append([LAWS[row["law"]], str(row["bodies"]), *(shown(row.get(measure), ".2g") for measure in MEASURES),
+        body.append([LAWS[row["law"]], str(row["bodies"]), *(tables.shown(row.get(measure), ".2g") for measure in MEASURES),
                      f"{np.log2(row['place_cm'] / finer[0]['place_cm']):.1f}" if finer else ""])
     tables.write_table(out, "contracting_meshes", ["slide by", "bodies",
                                                    *(f"{name} off, {unit(measure)}" for measure, name in MEASURES.items()),
@@ -183,7 +183,7 @@ def mujoco_table(rows: Rows, out: Path) -> None:
     for row in pick(rows, simulator="mujoco", outcome="ok"):
         near = [own["cpu_s"] for own in done(rows, law="reflex") if own["knot_cm"] <= row["knot_cm"]]
         body.append([f"{name_of(row)}, contacts {row['contact_ms']} ms", f"{row['cpu_s']:.2g}",
-                     *(shown(row[key], ".2g") for key in ("knot_cm", "off_here_cm")),
+                     *(tables.shown(row[key], ".2g") for key in ("knot_cm", "off_here_cm")),
                      f"{row['cpu_s'] / near[0]:.0f}" if near else ""])
     tables.write_table(out, "contracting_mujoco", ["run", "CPU, s", "knot's path off the reference, cm", "off the path here, cm",
                                                    "CPU, of a run here as near"], body)

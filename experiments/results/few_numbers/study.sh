@@ -8,11 +8,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
 for grid in numbers starts free; do "$hagfish" sweep "$grids/$grid.toml" --out "$out/$grid"; done
-{
-  cat "$grids/animals.toml"
-  /usr/bin/python3 "$root/experiments/results/animals.py" 10
-} >"$out/animals.toml"
-"$hagfish" sweep "$out/animals.toml" --out "$out/animals"
+swept_animals
 
 # NAME of a run and the arguments of `hagfish run`, to the end of the slide. A knot that is lost is a result: exit code 3.
 runs=$out/runs

@@ -10,7 +10,7 @@ import numpy as np
 
 import plots
 import tables
-from accuracy import STATIONS, moments_of, off, shown, through
+from accuracy import STATIONS, moments_of, off, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 from sweep_columns import read_cells
@@ -55,7 +55,7 @@ def read_slides(folder: Path) -> dict[tuple[str, str, str], Slide]:
         scene = cell.axes["scene"]
         if cell.outcome != "ok":
             raise LogError(f"{cell.path}, {scene}: {cell.outcome}")
-        knot = plots.SCENES[scene.removeprefix("living_").removesuffix("_waypoints")]
+        knot = plots.knot_of(scene)
         found[cell.axes["title"].strip('"'), "living" if "living" in scene else "towed", knot] = slide_of(
             cell.log, cell.figures["slide_distance_cm"])
     return found
@@ -116,7 +116,7 @@ def turns_rows() -> list[list[str]]:
     counts = (100, 200, 400)
     rows = {**{words: [turns_off(bodies, in_turn) for bodies in counts] for words, in_turn in ORDERS.items()},
             f"centres, on a circle of {RADIUS:g} cm, inside it": [inside(bodies) for bodies in counts]}
-    return [[words, *(shown(value, ".4f") for value in values), shown(np.log2(values[-2] / values[-1]), ".1f")] for words,
+    return [[words, *(tables.shown(value, ".4f") for value in values), tables.shown(np.log2(values[-2] / values[-1]), ".1f")] for words,
             values in rows.items()]
 
 
@@ -127,9 +127,9 @@ def main(folder: Path) -> None:
         for animals in ("towed", "living"):
             each = [[differences(slides[run, animals, knot], slides[other, animals, knot]) for run, other in pairs] for knot in plots.KNOTS]
             worst = {name: [max(found[name] for found in of) for of in each] for name in each[0][0]}
-            ends = lambda name: [shown(np.median(worst[name]), ".1f"), shown(max(worst[name]), ".1f")]
+            ends = lambda name: [tables.shown(np.median(worst[name]), ".1f"), tables.shown(max(worst[name]), ".1f")]
             sums.append([change, animals, *(cell for name in SUMS for cell in ends(name))])
-            spread.append([change, animals, *(shown(value, ".1f") for value in worst["mean"]), ends("mean")[0], *ends("time"),
+            spread.append([change, animals, *(tables.shown(value, ".1f") for value in worst["mean"]), ends("mean")[0], *ends("time"),
                            *ends("place")])
     both = lambda names: [f"{name}, {end}" for name in names for end in ("median", "at most")]
     tables.write_table(folder, "forces", ["change", "animals", *both(SUMS)], sums)

@@ -13,9 +13,8 @@ import claim_row
 import claims
 import plots
 import tables
-from hagfish_log import HagfishLog
 from script import run_script
-from slides import slide_of, tied
+from slides import failure_of, slide_of
 from sweep_columns import Cell, read_cells
 
 SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes", "haste": "speed of the program"}
@@ -29,7 +28,7 @@ class Run:
     """What one run shows; cm, dyn cm, erg."""
 
     knot: str
-    outcome: str  # "off", or why the run is not one
+    off: bool  # the knot was tied, held, slid and let go
     travel: float  # of the knot's head end
     share: float  # of a slide by both ends, %
     met: float  # share of sliding steps that meet Eq. 6
@@ -38,20 +37,11 @@ class Run:
     torque: dict[str, float]  # largest of a hinge, by phase
 
 
-def outcome_of(log: HagfishLog, unmet: list[str]) -> str:
-    status = str(log.attribute("status"))
-    if status != "complete":
-        return status.removeprefix("failed: ").split(" at step")[0]
-    if not tied(log):
-        return "not tied in time"
-    return "knot lost" if "knot held" in unmet else "still tied" if "unknot at end" in unmet else "off"
-
-
 def run_of(cell: Cell) -> Run:
     log, slide = cell.log, slide_of(cell.log, cell.unmet, "slide")
     torque = np.abs(np.nan_to_num(log["/forces/active"])).max(axis=1)  # no step begins at the end
     frames = {phase: log.in_phase(phase) for phase in PHASES}
-    return Run(plots.knot_of(cell.axes["scene"]), outcome_of(log, cell.unmet), slide.travel, cell.figures["both_ends_percent"], slide.met,
+    return Run(plots.knot_of(cell.axes["scene"]), not failure_of(log, cell.unmet), slide.travel, cell.figures["both_ends_percent"], slide.met,
                slide.force, float(log["/steps/penetration"].max()),
                {phase: float(torque[rows].max()) if rows.size else np.nan for phase, rows in frames.items()})
 
@@ -84,7 +74,7 @@ def draw(sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> No
     for panel, (what, label) in zip(axes, SWEEPS.items(), strict=True):
         for knot, runs in sweeps[what].items():
             look = plots.KNOTS[knot]
-            for fill, line, own in ((None, "-", runs), ("white", "", [each for each in runs if each[1].outcome != "off"])):
+            for fill, line, own in ((None, "-", runs), ("white", "", [each for each in runs if not each[1].off])):
                 panel.plot([value for value, _ in own], [run.torque["form"] / 1e3 for _, run in own], **look.style, mfc=fill, ls=line)
         panel.axhline(CAPACITY / 1e3, color=plots.GREY, ls="--", lw=0.8)
         panel.set(xscale="log", yscale="log", xlabel=label, ylim=(14, 350))
@@ -95,7 +85,7 @@ def draw(sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> No
     plots.plain_ticks(axes[0].xaxis, [1e3, 1e4, 1e5, 1e6])
     axes[0].set_xticklabels(["10³", "10⁴", "10⁵", "10⁶"])
     plots.plain_ticks(axes[0].yaxis, [20, 50, 100, 200])
-    handles = [axes[0].plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
+    handles = plots.knot_handles(axes[0])
     handles += axes[0].plot([], [], color=plots.INK, marker="o", mfc="white", ls="", label="not tied, or not off")
     handles += axes[0].plot([], [], color=plots.GREY, ls="--", lw=0.8, label="a guess at the capacity")
     plots.legend_above(figure, handles, 3, 0.13)
@@ -108,16 +98,16 @@ def sweep_rows(sweeps: dict[str, dict[str, list[tuple[float, Run]]]]) -> list[li
     for what, label in SWEEPS.items():
         for value in sorted({value for runs in sweeps[what].values() for value, _ in runs}):
             own = [run for runs in sweeps[what].values() for each, run in runs if each == value]
-            torques = [run.torque["form"] for run in own if run.outcome == "off"]
+            torques = [run.torque["form"] for run in own if run.off]
             rows.append([f"{label}: {value:g}", f"{len(torques)} of {len(own)}",
                          f"{min(torques):.2g} to {max(torques):.2g}" if torques else ""])
     return rows
 
 
 def main_table(folder: Path) -> None:
-    off = lambda runs: [run for run in runs if run.outcome == "off"]
+    off = lambda runs: [run for run in runs if run.off]
     held, free = ([run for run, in runs_of(folder / name)] for name in ("held", "free"))
-    animals = list(map(off, runs_of(folder / "animal")))
+    animals = list(map(off, runs_of(folder / "animals")))
     programs = [cell.log.scene()["script"]["curvature"] for cell in read_cells(folder / "held")]
     large = lambda value: tables.short(value, ".1e")
     slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"

@@ -5,11 +5,6 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
-{
-  cat "$grids/animal.toml"
-  /usr/bin/python3 "$root/experiments/results/animals.py" 10
-} >"$out/animal.toml"
-
 # Programs at other times their speed, and when each ends, s.
 mkdir -p "$out/programs"
 declare -A end=([overhand]=11.8 [figure_eight]=13.5 [double_overhand]=17 [three_twist]=17)
@@ -32,7 +27,8 @@ title = $(joined "${hastes[@]}")
 "controller.tighten_from" = $(joined "${ends[@]}")
 TOML
 
-for grid in "$grids"/{held,free,heldstart,freestart,claims,stiffness,drag}.toml "$out"/{animal,haste}.toml; do
+for grid in "$grids"/{held,free,heldstart,freestart,claims,stiffness,drag}.toml "$out/haste.toml"; do
   "$hagfish" sweep "$grid" --out "$out/$(basename "$grid" .toml)"
 done
+swept_animals
 draw living.py "$out"

@@ -67,10 +67,10 @@ def forward(folder: Path) -> None:
             if not frames.size:
                 rows.append([name, "never slides", "", "", "", ""])
                 continue
-            held = np.isin(log.labels("/trajectory/phase"), ("tighten", "slide"))
-            types = {(int(d), int(v)) for d, v in zip(log["/knot/determinant"][held], log["/knot/v2"][held])}
+            held = np.flatnonzero(np.isin(log.labels("/trajectory/phase"), ("tighten", "slide")))
             time = log["/trajectory/time"][frames]
-            rows.append([name, "kept" if len(types) == 1 else "lost", f"{way(log):.2f}", f"{cell.figures['both_ends_percent']:.0f}",
+            kept = "kept" if len(set(log.knots(held))) == 1 else "lost"
+            rows.append([name, kept, f"{way(log):.2f}", f"{cell.figures['both_ends_percent']:.0f}",
                          f"{way(log) / (time[-1] - time[0]):.2f}", f"{np.quantile(log['/muscle/driven'][frames], 0.999):.2f}"])
     tables.write_table(folder, "muscles_forward", ["on activations", "type until release", "way of the head end, cm",
                                                    "share of a slide by both ends, %", "cm/s", "peak activation"], rows)

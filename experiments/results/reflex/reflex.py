@@ -22,6 +22,7 @@ from log_pictures import take_pictures
 from reflex_runs import Row, read_table
 from script import run_script
 from sweep_columns import read_cells
+from tables import shown
 
 KNOTS = list(plots.KNOTS)
 CASES = [(knot, head) for head in ("clamped", "free") for knot in KNOTS]
@@ -54,13 +55,6 @@ def law_speed(shift: float) -> float:
     return shift * (STIFFNESS + RIGIDITY) / DAMPING
 
 
-def figure_of(value: float | None, digits: int = 3) -> str:
-    if value is None or np.isnan(value):
-        return "-"
-    text = f"{value:.{digits}g}"
-    return text.replace("e+0", "e").replace("e-0", "e-")
-
-
 def came(row: Row | None) -> str:
     """How far the knot came, in words."""
     if row is None:
@@ -77,7 +71,7 @@ def knots_table(rows: list[Row]) -> Cells:
                           ("Eq. 6", one(rows, study="paper", knot=knot, head=head))):
             if row is not None:
                 figures = (row.torque, row.effort, row.put_in, row.work, row.wave, row.travel)
-                body.append([f"{knot}, {head}", name, came(row), row.held, *(figure_of(value, 2) for value in figures)])
+                body.append([f"{knot}, {head}", name, came(row), row.held, *(shown(value, ".2g") for value in figures)])
     return ["knot, head", "law", "way, cm, in time", "type held", "largest torque, dyn cm", "effort, dyn s",
             "work put in, erg/cm", "net work, erg/cm", "wave's speed, of the knot's", "travel, share of change"], body
 
@@ -93,7 +87,7 @@ def mesh_table(rows: list[Row]) -> Cells:
     for knot, head in CASES:
         found = [one(rows, study="knots", knot=knot, head=head, setting=setting) for setting in settings]
         time, middle = ([getattr(row, key) if row else None for row in found] for key in ("time", "middle"))
-        body.append([f"{knot}, {head}", *("; ".join(map(figure_of, pair)) for pair in zip(time, middle)),
+        body.append([f"{knot}, {head}", *("; ".join(map(shown, pair)) for pair in zip(time, middle)),
                      apart(*time[:2]), apart(*middle[:2]), apart(middle[1], middle[3])])
     return ["slide; its middle, s", *("{} bodies, {} ms".format(*setting.split("; ")) for setting in settings),
             "slide, 200 against 100 bodies, %", "middle, the same, %", "middle, 1 against 2 ms, 200 bodies, %"], body
@@ -105,12 +99,12 @@ def meshes_table(rows: list[Row]) -> Cells:
     body = []
     for knot, head in CASES:
         times = {row.setting: row.middle for row in pick(own, knot=knot, head=head)}
-        body.append([f"{knot}, {head}", *(figure_of(times.get(count)) for count in counts), apart(times.get("200"), times.get("400"))])
+        body.append([f"{knot}, {head}", *(shown(times.get(count)) for count in counts), apart(times.get("200"), times.get("400"))])
     return ["middle of the slide, s", *(f"{count} bodies" for count in counts), "400 against 200, %"], body
 
 
 def wiped_table(rows: list[Row]) -> Cells:
-    share = lambda row, key: figure_of(getattr(row, key) if row else None, 2)
+    share = lambda row, key: shown(getattr(row, key) if row else None, ".2g")
     return ["share that skin pressed on", "reflex: length", "reflex: skin", "Eq. 6: length", "Eq. 6: skin"], [
         [f"{knot}, {head}", *(share(one(rows, study=study, knot=knot, head=head, setting=USUAL), key)
                               for study in ("knots", "paper") for key in ("rings", "skin"))] for knot, head in CASES]
@@ -119,8 +113,8 @@ def wiped_table(rows: list[Row]) -> Cells:
 def loose_table(rows: list[Row]) -> Cells:
     return ["knot", "the reflex begins", "Δ at the tail end, of that at the head end", "for, s",
             "what there was, in turn", "span then, cm", "least span, cm"], [
-        [row.knot, LOOSE[row.study], row.setting, figure_of(row.time, 2), row.types.replace(" ", ", "),
-         figure_of(row.span_from), figure_of(row.span_to)] for row in rows if row.study in LOOSE]
+        [row.knot, LOOSE[row.study], row.setting, shown(row.time, ".2g"), row.types.replace(" ", ", "),
+         shown(row.span_from), shown(row.span_to)] for row in rows if row.study in LOOSE]
 
 
 def grid_table(rows: list[Row], study: str) -> Cells:
@@ -136,7 +130,7 @@ def speed_table(rows: list[Row]) -> Cells:
     for shift in dict.fromkeys(row.setting.split("; ")[0] for row in own):
         law = law_speed(float(shift))
         pairs = ([one(own, knot=knot, head=head, setting=f"{shift}; {step}") for step in (5, 2)] for knot, head in cases)
-        body.append([shift, figure_of(law), *("; ".join(f"{row.speed / law:.2f}" + ("" if row.slid == "yes" else "*")
+        body.append([shift, shown(law), *("; ".join(f"{row.speed / law:.2f}" + ("" if row.slid == "yes" else "*")
                                                         for row in pair if row and row.way) for pair in pairs)])
     return ["Δ, cm", "law, cm/s", *(f"{knot}, {head}: measured of law, 5 ms; 2 ms" for knot, head in cases)], body
 
@@ -174,8 +168,8 @@ def claims_table(rows: list[Row]) -> Cells:
     for study, name in (("knots", "reflex"), ("paper", "Eq. 6")):
         for row in pick(rows, study=study, head="clamped", setting=USUAL):
             if row.behind is not None:
-                body.append([row.knot, name, figure_of(row.behind, 2), figure_of(row.near, 2), row.rank,
-                             *(figure_of(value, 2) for value in (row.rough_space, row.rough_time, row.likeness))])
+                body.append([row.knot, name, shown(row.behind, ".2g"), shown(row.near, ".2g"), row.rank,
+                             *(shown(value, ".2g") for value in (row.rough_space, row.rough_time, row.likeness))])
     return ["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it",
             "grows to the head", "roughness along the body", "roughness in time", "cosine with the curvature's gradient"], body
 
@@ -183,7 +177,7 @@ def claims_table(rows: list[Row]) -> Cells:
 def pull_table(rows: list[Row]) -> Cells:
     laws = {"paper": "Eq. 6 at all contacts", "reflex": "reflex, scene's Δ"}
     runs = [*pick(rows, study="pull"), *pick(rows, study="pull_shift")]
-    body = [[row.knot, laws.get(row.setting, f"reflex, Δ = {row.setting} cm"), figure_of(row.pull, 2), row.held] for row in runs]
+    body = [[row.knot, laws.get(row.setting, f"reflex, Δ = {row.setting} cm"), shown(row.pull, ".2g"), row.held] for row in runs]
     return ["knot", "law", "pull, N", "type held"], sorted(body, key=lambda cells: cells[0])
 
 
@@ -209,8 +203,8 @@ def mujoco_table(rows: list[Row]) -> Cells:
     for row in pick(rows, study="mujoco"):
         own = beside(rows, row)
         body.append([f"{row.knot}, {row.head}", row.setting or "from the straight body", came(row), row.held, came(own),
-                     figure_of(own.time / row.time if own and own.time else None),
-                     figure_of(own.middle / row.middle if own and own.middle and row.middle else None)])
+                     shown(own.time / row.time if own and own.time else None),
+                     shown(own.middle / row.middle if own and own.middle and row.middle else None)])
     return ["knot, head", "run", "MuJoCo: way, cm, in time", "type held", "here", "speed there, of that here",
             "the same, middle of the slide"], body
 
@@ -258,7 +252,7 @@ def figures_table(rows: list[Row]) -> Cells:
         ["way where nothing is copied, cm", tables.span(nothing, ".1f")],
         ["shuffled neighbours that lose the knot", f"{len(pick(shuffled, held='no'))} of {len(shuffled)}"],
         ["runs by rate that came to the head", slid_of(rate)],
-        ["leap of a shape held for a second, cm", figure_of(law_speed(SHIFT), 2)],
+        ["leap of a shape held for a second, cm", shown(law_speed(SHIFT), ".2g")],
         ["starts that slid", slid_of(tied("starts"))],
         ["animals that slid", slid_of(tied("animals"))],
         ["free heads that tied", str(len(tied("free", "free_programs")))],
@@ -337,7 +331,7 @@ def draw(folder: Path, rows: list[Row], out: Path) -> None:
     draw_ways(ways, folder)
     draw_torque(torque, folder)
     draw_speeds(speeds, rows)
-    handles = [ways.plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
+    handles = plots.knot_handles(ways)
     handles += ways.plot([], [], color=plots.GREY, ls="--", label="in MuJoCo")
     handles += ways.plot([], [], color=plots.INK, marker="o", ls="", mfc="white", label="short of the head")
     handles += ways.plot([], [], color=plots.GREY, ls=":", label=r"$v=\Delta\,(B_a+B)/C$")

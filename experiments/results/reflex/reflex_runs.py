@@ -74,7 +74,7 @@ def number(text: str) -> str:
     """A setting as it is shown: of an array its first element, to three digits."""
     first = text.strip("[]").split(",")[0]
     try:
-        return f"{float(first):.3g}".replace("e+0", "e").replace("e-0", "e-")
+        return tables.short(float(first))
     except ValueError:
         return first
 

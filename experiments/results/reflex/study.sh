@@ -11,11 +11,7 @@ for grid in knots meshes paper knockouts speed delay noise bodies step drag musc
   pull_shift beside; do
   "$hagfish" sweep "$grids/$grid.toml" --out "$out/$grid"
 done
-{
-  cat "$grids/animals.toml"
-  /usr/bin/python3 "$root/experiments/results/animals.py" 10
-} >"$out/animals.toml"
-"$hagfish" sweep "$out/animals.toml" --out "$out/animals"
+swept_animals
 
 for made in laws.csv rate.csv curves loose.csv; do
   [[ -e $out/$made ]] || { draw reflex_laws.py "${made%.csv}" "$out/$made.part" && mv "$out/$made.part" "$out/$made"; }

@@ -6,7 +6,6 @@ Usage: slit.py FOLDER. FOLDER is what the study leaves. The tables come in its f
 from __future__ import annotations
 
 import math
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -94,8 +93,9 @@ def area(share: float) -> float:
     return 1 - (1 - share) ** 2
 
 
-def main(folder: Path) -> None:
-    rows, meshes = [], []
+def pulled(folder: Path) -> None:
+    """Forces by the slit's width and the flesh's stiffness, beside the closed forms."""
+    rows = []
     figure, (normals, pulls) = plots.panels(1, 2, (plots.WIDTH, 2.9), ["force of one side of the slit", "pull through the slit"])
     dense = np.linspace(0.48, 0.98, 60)
     for stiffness in STIFFNESSES:
@@ -122,38 +122,55 @@ def main(folder: Path) -> None:
     tables.write_table(folder, "slit", [
         "width over the body's", "width, cm", "k', kPa", "force of one side, N", "closed form, N", "off, %", "pull at 3 cm/s, N",
         "closed form of the pull, N", "overlap, cm", "area of a section left"], rows)
+
+
+def meshes(folder: Path) -> None:
+    rows = []
     for name, change in (("pulled_1e5", "100 bodies, 2 ms"), ("bodies_200", "200 bodies, 2 ms"), ("step_5", "100 bodies, 5 ms")):
         for share in ("0.9", "0.7", "0.5"):
             seen = passage(folder / "runs" / f"{name}_{share}.h5")
-            meshes.append([change, f"{float(share):g}", f"{seen.normal * 1e-5:.4f}", f"{seen.pull * 1e-5:.4f}"])
-    tables.write_table(folder, "slit_meshes", ["run", "width over the body's", "force of one side, N", "pull at 3 cm/s, N"], meshes)
-    knots = []
+            rows.append([change, f"{float(share):g}", f"{seen.normal * 1e-5:.4f}", f"{seen.pull * 1e-5:.4f}"])
+    tables.write_table(folder, "slit_meshes", ["run", "width over the body's", "force of one side, N", "pull at 3 cm/s, N"], rows)
+
+
+def knotted(folder: Path) -> None:
+    rows = []
     for share in ("1.2", *SHARES):
         log = HagfishLog(folder / "runs" / f"knot_1e5_{share}.h5")
         phases = log.labels("/trajectory/phase")
         pull = log["/pull/force"]
         begun = bool(np.isfinite(pull).any())
         out = phases[-1] == "free" or log["/trajectory/position"][-1, 0, 0] > 2.0
-        scene = tomllib.loads(str(log.attribute("scene")))
-        knots.append([f"{float(share):g}", f"{float(share) * THICKEST:.2f}", "yes" if begun else "no",
-                      f"{np.nanmax(pull) * 1e-5:.2f}" if begun else "-", "yes" if out else "no", f"{scene['food']['strength']:g}"])
+        rows.append([f"{float(share):g}", f"{float(share) * THICKEST:.2f}", "yes" if begun else "no",
+                     f"{np.nanmax(pull) * 1e-5:.2f}" if begun else "-", "yes" if out else "no", f"{log.scene()['food']['strength']:g}"])
     tables.write_table(folder, "slit_knot", [
-        "width over the body's", "width, cm", "knot reaches the slit", "largest pull, N", "head comes out", "held up to, N"], knots)
-    waves = []
+        "width over the body's", "width, cm", "knot reaches the slit", "largest pull, N", "head comes out", "held up to, N"], rows)
+
+
+def waves(folder: Path) -> None:
+    rows = []
     for wave in ("0.5_1_1", "0.7_0.6_0.5"):
         for share in ("1.2", "0.9", "0.8", "0.7"):
             angle, length, period = wave.split("_")
-            waves.append([angle, length, period, share, passed(folder / "runs" / f"wave_{wave}_{share}.h5", float(share))])
-    swum = []
+            rows.append([angle, length, period, share, passed(folder / "runs" / f"wave_{wave}_{share}.h5", float(share))])
+    tables.write_table(folder, "slit_wave", [
+        "angle of the wave, rad", "its length over the body's", "its period, s", "width over the body's", "through after, s"], rows)
+
+
+def swimming(folder: Path) -> None:
+    rows = []
     for name in SWUM:
         angle, length, period = name.split("_")
         speed, wave = swims(folder / "runs" / f"swim_{name}.h5", float(period)), float(length) * SWIMMER / float(period)
-        swum.append([angle, length, period, f"{speed:.1f}", f"{speed / wave:.2f}", SWAM])
+        rows.append([angle, length, period, f"{speed:.1f}", f"{speed / wave:.2f}", SWAM])
     tables.write_table(folder, "slit_swim", [
         "angle of the wave, rad", "its length over the body's", "its period, s", "speed, cm/s", "speed over the wave's",
-        "a hagfish of the same length, cm/s"], swum)
-    tables.write_table(folder, "slit_wave", [
-        "angle of the wave, rad", "its length over the body's", "its period, s", "width over the body's", "through after, s"], waves)
+        "a hagfish of the same length, cm/s"], rows)
+
+
+def main(folder: Path) -> None:
+    for part in (pulled, meshes, knotted, waves, swimming):
+        part(folder)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,6 @@
 Usage: slit_scene.py SHARE BASE OUT.toml: width over the body's largest one; scene whose poles move.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 
@@ -18,11 +16,11 @@ GUARD = "guard.penetration = 0.8\n"  # cm: flesh may overlap
 FLESH = "[flesh]\nstiffness = 1e5\nrelaxation = 0.015\nspacing = 0.212\n"
 
 
-def main(share: Path, base: Path, out: Path) -> None:
-    y = float(str(share)) * THICKEST / 2 + POLE
-    poles = [f'[[obstacle]]\nname = "{side} pole"\nkind = "strand"\npoints = [[{AT[str(base)]}, {sign * y:.6f}, -9.0], '
-             f"[{AT[str(base)]}, {sign * y:.6f}, 9.0]]\nradius = {POLE}\n" for side, sign in (("left", 1), ("right", -1))]
-    plate = [PLATE] if str(base) == "hole_overhand" else []
+def main(share: str, base: str, out: Path) -> None:
+    y = float(share) * THICKEST / 2 + POLE
+    poles = [f'[[obstacle]]\nname = "{side} pole"\nkind = "strand"\npoints = [[{AT[base]}, {sign * y:.6f}, -9.0], '
+             f"[{AT[base]}, {sign * y:.6f}, 9.0]]\nradius = {POLE}\n" for side, sign in (("left", 1), ("right", -1))]
+    plate = [PLATE] if base == "hole_overhand" else []
     title = f"Slit of {share} of the body's width"
     out.write_text("\n".join([f'base = "{base}"\ntitle = "{title}"\n', GUARD, FLESH, *plate, *poles]), encoding="utf-8")
 

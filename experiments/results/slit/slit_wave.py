@@ -5,34 +5,24 @@ Usage: slit_wave.py ANGLE LENGTH PERIOD SHARE PROGRAM.csv SCENE.toml: of the tan
 the body's, or the scene of `hagfish specimen` whose animal swims without a slit.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
-
-import numpy as np
 
 from script import run_script
 from slit_scene import FLESH, POLE, THICKEST
+from waves import wave_program
 
 DURATION = 20.0  # s; in open water half of it
-STATIONS, STEPS, RISE = 41, 16, 0.1  # along the body, in a period; over what share of it the wave grows
 ROW, APART, WALL = 24, 0.55, 1.5  # poles to each side of the slit, which overlap; cm: between them; x of all
 
 
-def main(angle: Path, length: Path, period: Path, share: Path, program: Path, scene: Path) -> None:
-    k, omega = 2 * np.pi / float(str(length)), 2 * np.pi / float(str(period))
-    swims = share.suffix == ".toml"
+def main(angle: float, length: float, period: float, share: str, program: Path, scene: Path) -> None:
+    swims = share.endswith(".toml")
     lasts = DURATION / 2 if swims else DURATION
-    rows = ["time (s),station (L),bend_y (rad/L),bend_z (rad/L),twist (rad/L)"]
-    for t in np.arange(0, lasts + 1e-9, float(str(period)) / STEPS):
-        for s in np.linspace(0, 1, STATIONS):
-            grown = min(1, t / float(str(period))) * min(1, s / RISE)
-            rows.append(f"{t:.5f},{s:.4f},0,{float(str(angle)) * k * grown * np.cos(k * s - omega * t):.5f},0")
-    program.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    program.write_text(wave_program(angle, length, period, lasts), encoding="utf-8")
     poles = []
     for side, sign in (("left", 1), ("right", -1)):
         for j in range(0 if swims else ROW):
-            y = sign * (float(str(share)) * THICKEST / 2 + POLE + APART * j)
+            y = sign * (float(share) * THICKEST / 2 + POLE + APART * j)
             poles.append(f'[[obstacle]]\nname = "{side} {j}"\nkind = "strand"\npoints = [[{WALL}, {y:.6f}, -9.0], [{WALL}, {y:.6f}, 9.0]]\nradius = {POLE}\n')
     scene.write_text(f'''base = "{share if swims else 'living_overhand_free'}"
 title = "Wave without a knot{' in open water' if swims else ' through a slit'}"

@@ -4,14 +4,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
-# once NAME ARGUMENTS...: a run whose log is kept. One that fails is a result, too.
-once() {
-  [[ -e $out/runs/$1.done ]] && return
-  "$hagfish" run "${@:2}" --out "$out/runs/$1.h5" --force --quiet || (($? == 1))
-  touch "$out/runs/$1.done"
-}
-
-mkdir -p "$out/runs" "$out/scenes"
+mkdir -p "$out/scenes"
 for share in 0.9 0.8 0.7 0.6 0.5; do
   draw slit_scene.py "$share" slit "$out/scenes/pulled_$share.toml"
   draw slit_scene.py "$share" hole_overhand "$out/scenes/knot_$share.toml"

@@ -46,7 +46,7 @@ def draw(rows: list[dict[str, str]], allowed: float, out: Path) -> None:
                                (force, "sum of the four $\\lambda/h$, dyn", [50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000])):
         axes.set(ylabel=label, yscale="log")
         plots.plain_ticks(axes.yaxis, ticks)
-    handles = [speed.plot([], [], label=look.label, **look.style)[0] for look in plots.KNOTS.values()]
+    handles = plots.knot_handles(speed)
     if any(row[RUN] != "complete" for row in rows):
         handles += speed.plot([], [], color=plots.INK, marker="o", mfc="white", ls="", label="knot lost, or run failed")
     plots.legend_above(figure, handles, 5, 0.05)

@@ -26,8 +26,7 @@ STRENGTH = 0.8  # 1/cm, curvature of the darkest colour
 
 def knot_of(scene: str) -> tuple[str, str]:
     """Type and how the head is, by a scene's name."""
-    name = scene.removeprefix("living_").removeprefix("reflex_")
-    return plots.SCENES[name.removesuffix("_free")], "free" if name.endswith("_free") else "held"
+    return plots.knot_of(scene), "free" if scene.endswith("_free") else "held"
 
 
 def law_of(axes: dict[str, str]) -> str:

@@ -1,7 +1,6 @@
 """What tables and figures of a world to knot in need of logs (taken.py): of a hole, wave, pull, skin or robot. Needs the program as built
 (HAGFISH_PROGRAM)."""
 
-import csv
 import subprocess
 import tempfile
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy as np
 import audits
 from hagfish_log import HagfishLog
 from script import HAGFISH
+from tables import read_csv
 
 SETTLED = 4.0  # s, after which a wave runs evenly
 LAWS = {"all_contacts": "Eq. 6", "reflex": "reflex"}
@@ -20,12 +20,6 @@ LAWS = {"all_contacts": "Eq. 6", "reflex": "reflex"}
 def knot_and_law(log: HagfishLog) -> dict[str, str]:
     scene = log.scene()
     return {"knot": scene["expect"]["knot"], "law": scene["controller"]["law"]}
-
-
-def types(log: HagfishLog) -> np.ndarray:
-    """The knot's name at each frame."""
-    names = log.named("knot", by="knot_invariants")
-    return np.array([names.get(f"det={d},v2={v}", "") for d, v in zip(log["/knot/determinant"], log["/knot/v2"])])
 
 
 def first(time: np.ndarray, where: np.ndarray) -> float:
@@ -41,7 +35,7 @@ def hole(log: HagfishLog) -> dict[str, Any]:
     plate = next(each for each in scene["obstacle"] if each["name"] == scene["expect"]["out_of"])
     pulls = first(time, phase == "pull")
     out = first(time, (log["/trajectory/q"][:, 0] > plate["point"][0]) & (time > pulls))
-    held = bool((types(log)[(time >= pulls) & (time <= out)] == scene["expect"]["knot"]).all())
+    held = set(log.knots(np.flatnonzero((time >= pulls) & (time <= out)))) <= {scene["expect"]["knot"]}
     return {**knot_and_law(log), "strength": scene["food"]["strength"], "step": scene["time"]["step"], "pulls": pulls,
             "gives": first(time, phase == "release"),
             "out": out, "held": held, "penetration": penetration(log)}
@@ -70,8 +64,7 @@ def skin(log: HagfishLog) -> dict[str, Any]:
     """A row a side of the body, a column a ring: when the knot first touched it, s; nan where it never did."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([HAGFISH, "export", log.path, "--out", folder], check=True, stdout=subprocess.DEVNULL)
-        with (Path(folder) / "skin.csv").open(encoding="utf-8") as file:
-            cells = list(csv.DictReader(file))
+        cells = read_csv(Path(folder) / "skin.csv", ["since_s"])
     s, side = (np.unique([float(cell[name]) for cell in cells]) for name in ("s_cm", "side_rad"))
     table = lambda name: np.array([float(cell[name] or "nan") for cell in cells]).reshape(s.size, side.size).T
     back = log.in_phase("reverse")

@@ -8,9 +8,8 @@ import json
 import re
 from pathlib import Path
 
-import numpy as np
-
 from script import run_script
+from waves import wave_program
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 WIDTHS = (2, 3, 4, 5, 6, 7)  # cm
@@ -19,8 +18,7 @@ FACE, TUBE, RINGS = 2.0, 0.4, 4  # cm: x of the plate's face, a ring's radius; h
 WAVES = ("0.5 0.6 0.25", "0.5 0.6 0.5", "0.5 0.6 1", "0.5 1 0.5", "0.5 1 1", "0.5 1 2", "1 1 1", "1 1 2")
 PHASES = 8  # at the start
 DURATION = 12.0  # s
-STATIONS, STEPS = 41, 16  # along the body, in a period
-HELD, RISE = 0.07, 0.1  # of the length: what is in the hole stays straight, and over what the wave grows behind it
+HELD = 0.07  # of the length: what is in the hole stays straight
 
 
 def ringed(text: str, width: float) -> str:
@@ -33,16 +31,6 @@ def ringed(text: str, width: float) -> str:
     return text[:before] + "\n".join([*obstacles, text[behind:]])
 
 
-def program_of(angle: float, length: float, period: float, phase: float) -> str:
-    k, omega, turn = 2 * np.pi / length, 2 * np.pi / period, 2 * np.pi * phase
-    rows = ["time (s),station (L),bend_y (rad/L),bend_z (rad/L),twist (rad/L)"]
-    for t in np.arange(0, DURATION + 1e-9, period / STEPS):
-        for s in np.linspace(0, 1, STATIONS):
-            share = min(1, t / period) * np.clip((s - HELD) / RISE, 0, 1)
-            rows.append(f"{t:.5f},{s:.4f},0,{angle * k * share * np.cos(k * s + omega * t + turn):.5f},0")
-    return "\n".join(rows) + "\n"
-
-
 def main(folder: Path, grids: Path) -> None:
     files: dict[str, dict[str, str]] = {"widths": {}, "waves": {}}
     for width in WIDTHS:
@@ -53,7 +41,8 @@ def main(folder: Path, grids: Path) -> None:
     for wave in WAVES:
         for eighth in range(PHASES):
             name = f"{wave.replace(' ', '_')}_{eighth}"
-            files["waves"] |= {f"{name}.csv": program_of(*map(float, wave.split()), eighth / PHASES), f"{name}.toml": f'''base = "hole_overhand"
+            program = wave_program(*map(float, wave.split()), DURATION, headward=True, held=HELD, phase=eighth / PHASES)
+            files["waves"] |= {f"{name}.csv": program, f"{name}.toml": f'''base = "hole_overhand"
 title = "{wave}"
 script.program = "{name}.csv"
 time.duration = {DURATION}

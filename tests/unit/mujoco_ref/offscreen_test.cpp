@@ -325,11 +325,11 @@ Obstacle ring_at(double x) {
 TEST_F(OffscreenTest, AHoleIsSeenThroughAndATubeIsCutOpen) {
   // The hole is where its rim is.
   const Obstacle plate{"plate", Plane{.point = {2, 0.5, 0}, .neck = 3}};
-  const std::vector<Obstacle> all{plate, ring_at(1.7), ring_at(1.1)};
+  const std::vector<DrawnObstacle> all = drawn_obstacles({plate, ring_at(1.7), ring_at(1.1)}, 40);
   const auto picture = [&](View& from, std::initializer_list<int> shown) {
     std::vector<mjvGeom> geoms;
     for (const int k : shown) {
-      for (const mjvGeom& geom : obstacle_geoms(all[k], all, 40, from.toward())) {
+      for (const mjvGeom& geom : obstacle_geoms(all[k], from.toward())) {
         geoms.push_back(geom);
       }
     }
@@ -355,7 +355,7 @@ TEST_F(OffscreenTest, AHoleIsSeenThroughAndATubeIsCutOpen) {
   // A tube from the side: the half behind the middle is left, so that both edges show and the
   // viewer looks between them.
   View side = turned_view(0, 0);
-  for (const mjvGeom& geom : obstacle_geoms(all[2], all, 40, side.toward())) {
+  for (const mjvGeom& geom : obstacle_geoms(all[2], side.toward())) {
     EXPECT_LT(geom.pos[2], 0.05);
   }
   const Image tube = picture(side, {2});

@@ -9,7 +9,7 @@
 
 #include "core/log/hdf5/hdf5_writer.hpp"
 #include "core/step/rows/eq6_rows.hpp"
-#include "experiments/audit/audit_thigmotaxis.hpp"
+#include "experiments/audit/audit_parts.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"

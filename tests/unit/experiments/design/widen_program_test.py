@@ -8,16 +8,23 @@ import widen_program as widening
 COUNT = 40
 
 
+class Log(dict):
+    """40 bodies of 1 cm, 0.8 cm thick, on joints as the animal's."""
+
+    def __init__(self):
+        hinges = [(b, kind) for b in range(1, COUNT) for kind in (("bend_y", "bend_z") if b % 2 else ("twist",))]
+        self.joint, self.kind = (np.array(each) for each in zip(*hinges))
+        limits = np.append([np.inf] * 6, np.where(self.kind == "twist", 0.01, 1.2))
+        super().__init__({"/model/length": np.ones(COUNT), "/model/radius": np.full(COUNT, 0.4),
+                          "/model/limit_lower": -limits, "/model/limit_upper": limits})
+
+    def hinges(self):
+        return 6 + np.arange(self.joint.size), self.joint, self.kind
+
+
 @pytest.fixture
 def body():
-    """40 bodies of 1 cm, 0.8 cm thick, on joints as the animal's."""
-    names = [f"root_{k}" for k in range(6)]
-    for b in range(1, COUNT):
-        names += [f"j{b:02}_bend_y", f"j{b:02}_bend_z"] if b % 2 else [f"j{b:02}_twist"]
-    limits = np.array([np.inf] * 6 + [0.01 if name.endswith("twist") else 1.2 for name in names[6:]])
-    return widening.Body({"/model/length": np.ones(COUNT), "/model/radius": np.full(COUNT, 0.4),
-                          "/model/dof_name": [name.encode() for name in names],
-                          "/model/limit_lower": -limits, "/model/limit_upper": limits})
+    return widening.Body(Log())
 
 
 @pytest.fixture

@@ -173,13 +173,13 @@ def test_slides_are_counted_by_what_is_varied(tmp_path):
 
 
 class Swept:
-    def __init__(self, outcome, torque):
-        self.outcome, self.torque = outcome, {"form": torque}
+    def __init__(self, off, torque):
+        self.off, self.torque = off, {"form": torque}
 
 
 def test_sweeps_of_living_animals():
     sweeps = {what: {"3_1": [], "4_1": []} for what in living.SWEEPS}
-    sweeps["drag"] = {"3_1": [(1.0, Swept("off", 2e5))], "4_1": [(1.0, Swept("knot lost", 1e5))]}
+    sweeps["drag"] = {"3_1": [(1.0, Swept(True, 2e5))], "4_1": [(1.0, Swept(False, 1e5))]}
     assert living.sweep_rows(sweeps) == [["drag, times that of the scenes: 1", "1 of 2", "2e+05 to 2e+05"]]
 
 

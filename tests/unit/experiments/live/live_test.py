@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import threading
 import time
+import tomllib
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
@@ -199,6 +200,15 @@ def test_the_first_guided_step_names_the_time_of_the_knot(page):
     page.until("page.over", "the run does not end")
     tied = page.run("page.log.time[page.log.knot.findIndex((one) => page.log.knots[one] === 'overhand, 3_1')]")
     assert f"at about {tied:.0f} s" in page.run("TRIES[0].first"), tied
+
+
+def test_a_plate_has_its_hole(page):
+    page.start("hole_overhand")
+    plate, rim = tomllib.loads((ROOT / "data/hole_overhand.toml").read_text())["obstacle"]
+    square, tube = page.run("page.log.obstacles")
+    assert square["point"] == pytest.approx(plate["point"]) and square["hole"] == pytest.approx(rim["inner_radius"] + rim["radius"])
+    assert tube["radius"] == rim["radius"] and tube["ring"] is False and tube["closed"] is True
+    assert page.run("viewer.bodies[0].obstacles.length") == 2
 
 
 def test_a_change_while_it_runs_goes_on_from_where_it_was(page):

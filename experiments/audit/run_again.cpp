@@ -1,4 +1,4 @@
-#include "experiments/program/run_again.hpp"
+#include "experiments/audit/compare_logs.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,6 @@
 #include "core/log/log_writer.hpp"
 #include "core/log/reading/logged_run.hpp"
 #include "core/run/drive.hpp"
-#include "experiments/audit/compare_logs.hpp"
 #include "experiments/common/run_header.hpp"
 
 namespace hagfish {
@@ -37,7 +36,7 @@ class Rerun {
     }
     folder_ = name;
     const Scene& scene = run.resolved.scene;
-    LogHeader header = log_header(run.resolved, run.resolved.model, run.qp, "");
+    LogHeader header = log_header(run.resolved, run.qp, "");
     header.past = run.past;
     if (!run.past.empty()) header.branched_from = "another log";
     LogWriter writer(file(), false, header, run.resolved.model, scene);
