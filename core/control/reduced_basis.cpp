@@ -240,7 +240,7 @@ void unpack(const Eigen::VectorXd& memory, ReducedBasisMemory& unpacked) {
 
 void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                        ReducedBasisStorage& storage) {
-  paper_law(at, control);
+  all_contacts_law(at, control);
   if (at.so_far.phase != Phase::slide || control.thigmotaxis.empty()) {
     memory.resize(0);
     return;
