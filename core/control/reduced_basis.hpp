@@ -30,10 +30,11 @@ struct ReducedBasisStorage {
   UntakenStep ahead;  ///< one long step of the period, as the model of the next moments
 };
 
-/// The paper's law except in the slide, where torques u = B a replace the forces of Eq. 6. The rows
-/// stay, with zero effort, so that the log shows how far they are met. In each period a is the
-/// smallest that meets Eq. 6 at the end of one linearly implicit step of that length through the
-/// O(n) model. This step holds the contacts and limits that carry force when the paper's law acts.
+/// The law all_contacts except in the slide, where torques u = B a replace the forces of Eq. 6. The
+/// rows stay, with zero effort, so that the log shows how far they are met. In each period a is the
+/// smallest that meets Eq. 6 at all contacts at the end of one linearly implicit step of that length
+/// through the O(n) model. This step holds the contacts and limits that carry force when
+/// all_contacts acts.
 /// `memory` holds a ReducedBasisMemory in the slide, else nothing.
 void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& control,
                        ReducedBasisStorage& storage);

@@ -1,7 +1,7 @@
 """Slides of the studies of knots: what was commanded and what came of it."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +24,7 @@ class Slide:
     commanded: float  # speed, cm/s
     speed: float  # of the knot's leading end, a line through its places; nan where it never slid
     travel: float  # of that end
+    follows: float  # travel of the other end: of a knot that only grows it stays
     force: float  # sum of the multipliers of Eq. 6 / h, median of the means
     peak: float  # largest of them
     capped: float  # share of rows at controller.cap, of all steps
@@ -33,6 +34,7 @@ class Slide:
     allowed: float  # deepest that the scene expects
     failure: str  # why the run did not go on to its end; empty where it did
     seconds: float
+    kind: str = ""  # what the slide is by both ends, as `hagfish sweep` names it; empty where there is none
 
 
 def cause(status: str) -> str:
@@ -63,13 +65,13 @@ def failure_of(log: HagfishLog, unmet: list[str]) -> str:
 def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
     """`unmet`: criteria of the scene that the run does not meet, as `hagfish check` and `hagfish sweep` name them."""
     scene = log.scene()
-    end = "head" if phase == "slide" else "tail"
+    end, other = ("head", "tail") if phase == "slide" else ("tail", "head")
     frames = log.in_phase(phase)
     frames = frames[np.isfinite(log["/knot/head_end"][frames])]
-    time, place = log["/trajectory/time"][frames], log[f"/knot/{end}_end"][frames]
+    time, place, behind = log["/trajectory/time"][frames], *(log[f"/knot/{which}_end"][frames] for which in (end, other))
     moved = frames.size >= LEAST_FRAMES
     slope = float(np.polyfit(time, place, 1)[0]) if moved else np.nan
-    travel = float(place[-1] - place[0]) if moved else np.nan
+    travel, follows = (float(of[-1] - of[0]) if moved else np.nan for of in (place, behind))
     sign = -1.0 if phase == "slide" else 1.0
     means = read_means(log, phase)
     some = moved and means.end.size > 0
@@ -77,7 +79,7 @@ def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
     at_cap = log["/steps/thigmotaxis_lambda"][steps] >= AT_CAP * scene["controller"]["cap"]
     ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
     commanded = float(scene["controller"][f"{phase}_head"]["a"])
-    return Slide(scene["expect"]["knot"], commanded, sign * slope, sign * travel,
+    return Slide(scene["expect"]["knot"], commanded, sign * slope, sign * travel, sign * follows,
                  float(np.median(means.total)) if some else np.nan, float(means.total.max()) if some else np.nan,
                  float(at_cap.mean()) if steps.any() else np.nan,
                  float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
@@ -88,5 +90,5 @@ def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
 
 def read_slides(folder: Path, phase: str = "slide") -> list[Slide]:
     """All runs of a sweep that kept its logs, by knot and speed."""
-    slides = [slide_of(cell.log, cell.unmet, phase) for cell in read_cells(folder)]
+    slides = [replace(slide_of(cell.log, cell.unmet, phase), kind=cell.texts["slide"]) for cell in read_cells(folder)]
     return sorted(slides, key=lambda s: (s.knot, s.commanded))

@@ -25,7 +25,7 @@ POINTS = ["stiffness_dyn_cm2", "speed_cm_per_s", "starts", "tied", "arrived", "p
 
 @dataclass
 class Place:
-    """All starts at one stiffness (dyn cm^2) and speed (cm/s); figures are of those that came to the head."""
+    """All starts at one stiffness (dyn cm^2) and speed (cm/s); figures are of those that slid to the head by both ends."""
 
     stiffness: float
     speed: float
@@ -45,10 +45,11 @@ def quartiles(values: np.ndarray) -> np.ndarray:
 def places_of(table: SweepTable) -> list[Place]:
     stiffness, speed = (np.array([float(value) for value in table.axes[key]]) for key in (STIFFNESS, SPEED))
     figures = table.figures
+    both = np.array([slide == "slides by both ends" for slide in table.texts["slide"]])
     found = []
     for k, v in sorted({(k, v) for k, v in zip(stiffness, speed)}):
         here = (stiffness == k) & (speed == v)
-        arrived = here & np.isfinite(figures[ARRIVED])
+        arrived = here & np.isfinite(figures[ARRIVED]) & both
         found.append(Place(k, v, int(here.sum()), int((here & np.isfinite(figures["tighten_from_s"])).sum()), int(arrived.sum()),
                            int((here & table.passed).sum()), quartiles(figures["sliding_force_dyn"][arrived]),
                            quartiles((figures["work_thigmotaxis_erg"] / figures["slide_distance_cm"])[arrived])))
@@ -88,8 +89,8 @@ def draw(rows: list[dict[str, str]], out: Path) -> None:
 
 
 def by_speed(places: list[Place]) -> list[list[str]]:
-    """A row a speed, and one of all: how many starts tie, come to the head and meet every bound; from which stiffness on all do;
-    what the stiffest body that is tied takes, over the softest."""
+    """A row a speed, and one of all: how many starts tie, slide to the head by both ends and meet every bound; from which stiffness on all do;
+    what the stiffest body that slides takes, over the softest."""
     def counts(own: list[Place]) -> list[str]:
         total = lambda what: sum(getattr(p, what) for p in own)
         return [f"{total('tied')} of {total('starts')}", f"{total('arrived')} of {total('tied')}",
@@ -100,7 +101,8 @@ def by_speed(places: list[Place]) -> list[list[str]]:
         own = sorted((p for p in places if p.speed == speed), key=lambda p: p.stiffness)
         known = [p for p in own if p.tied]
         good = next((f"{p.stiffness:.2g}" for k, p in enumerate(known) if all(q.passed == q.tied for q in known[k:])), "none")
-        over = lambda what: f"{getattr(known[-1], what)[1] / getattr(known[0], what)[1]:.1f}"
+        both = [p for p in known if p.arrived]
+        over = lambda what: f"{getattr(both[-1], what)[1] / getattr(both[0], what)[1]:.1f}"
         rows.append([f"{speed:g}", *counts(own), good, over("force"), over("work")])
     return [*rows, ["all", *counts(places), "", "", ""]]
 
@@ -117,7 +119,7 @@ def by_stiffness(places: list[Place]) -> list[list[str]]:
 
 
 def write_tables(places: list[Place], out: Path) -> None:
-    tables.write_table(out, "sliding", ["commanded speed, cm/s", "tied", "of these came to the head", "and met every bound",
+    tables.write_table(out, "sliding", ["commanded speed, cm/s", "tied", "of these slid to the head by both ends", "and met every bound",
                                         "all do from this stiffness on, dyn cm²", "force, stiffest over softest body",
                                         "work, the same"], by_speed(places))
     tables.write_table(out, "sliding_stiffness", ["bending stiffness, dyn cm²", "starts that tie"], by_stiffness(places))

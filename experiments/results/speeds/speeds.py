@@ -11,18 +11,22 @@ import tables
 from script import run_script
 from slides import MEAN, read_slides
 
-HEAD = ["knot", "commanded, cm/s", "measured, cm/s", f"force, median {MEAN}, dyn", f"largest {MEAN}, dyn", "steps that meet Eq. 6, %",
+HEAD = ["knot", "commanded, cm/s", "measured, cm/s", "its slide", f"force, median {MEAN}, dyn", f"largest {MEAN}, dyn", "steps that meet Eq. 6, %",
         f"slack, median {MEAN}, cm/s", "rows at the cap, %", "penetration, cm", "run"]
-COMMANDED, MEASURED, FORCE, MET, DEEP, RUN = (HEAD[k] for k in (1, 2, 3, 5, 8, 9))
+COMMANDED, MEASURED, SLIDE, FORCE, MET, DEEP, RUN = (HEAD[k] for k in (1, 2, 3, 4, 6, 9, 10))
+BOTH_ENDS = "slides by both ends"
+
+
+def good(row: dict[str, str]) -> bool:
+    return row[RUN] == "complete" and row[SLIDE] == BOTH_ENDS
 
 
 def draw_over_speed(axes: Any, rows: list[dict[str, str]], measure: Callable[[dict[str, str]], float]) -> None:
-    """A measure over commanded speed, a line for each knot; open where the knot was lost or the run failed."""
+    """A measure over commanded speed, a line for each knot; open where it did not slide by both ends, was lost, or the run failed."""
     for knot, look in plots.KNOTS.items():
-        for fill, own in (("full", rows), ("none", [row for row in rows if row[RUN] != "complete"])):
+        for style, own in (({}, rows), ({"mfc": "white", "ls": ""}, [row for row in rows if not good(row)])):
             of = [row for row in own if row["knot"] == knot]
-            axes.plot([float(row[COMMANDED]) for row in of], [measure(row) for row in of], **look.style, fillstyle=fill,
-                      ls="-" if fill == "full" else "")
+            axes.plot([float(row[COMMANDED]) for row in of], [measure(row) for row in of], **(look.style | style))
     axes.set(xscale="log", xlabel="commanded speed, cm/s")
     plots.plain_ticks(axes.xaxis, [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50])
 
@@ -43,20 +47,20 @@ def draw(rows: list[dict[str, str]], allowed: float, out: Path) -> None:
     for axes, label, top in ((short, "share, %", None), (deep, "deepest, µm", 1.15e4 * allowed)):
         axes.set(ylabel=label, ylim=(0, top))
     for axes, label, ticks in ((speed, "measured speed, cm/s", [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50]),
-                               (force, "sum of the four $\\lambda/h$, dyn", [50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000])):
+                               (force, "sum of all $\\lambda/h$, dyn", [50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000])):
         axes.set(ylabel=label, yscale="log")
         plots.plain_ticks(axes.yaxis, ticks)
     handles = plots.knot_handles(speed)
-    if any(row[RUN] != "complete" for row in rows):
-        handles += speed.plot([], [], color=plots.INK, marker="o", mfc="white", ls="", label="knot lost, or run failed")
-    plots.legend_above(figure, handles, 5, 0.05)
+    if not all(map(good, rows)):
+        handles += speed.plot([], [], color=plots.INK, marker="o", mfc="white", ls="", label="no slide by both ends, or knot lost")
+    plots.legend_above(figure, handles, 3, 0.08)
     plots.save(figure, out)
 
 
 def main(folder: Path) -> None:
     slides = read_slides(folder)
     tables.write_table(folder, "speeds", HEAD, [
-        [s.knot, f"{s.commanded:g}", f"{s.speed:.3g}", f"{s.force:.0f}", f"{s.peak:.0f}", f"{100 * s.met:.1f}",
+        [s.knot, f"{s.commanded:g}", f"{s.speed:.3g}", s.kind or "-", f"{s.force:.0f}", f"{s.peak:.0f}", f"{100 * s.met:.1f}",
          f"{round(s.slack, 9):.2g}", f"{100 * s.capped:.0f}", f"{s.penetration:.2g}", s.failure or "complete"] for s in slides])
     draw(tables.read_csv(folder / "tables/speeds.csv", HEAD), min(s.allowed for s in slides), folder / "speeds.png")
 

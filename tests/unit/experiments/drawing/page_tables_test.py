@@ -3,6 +3,7 @@
 import csv
 import re
 import shutil
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -16,6 +17,7 @@ import claim_row
 import claims
 import departures
 import design
+import few_numbers
 import films
 import haste
 import knot_in_numbers
@@ -31,6 +33,7 @@ import thigmotaxis
 import two_simulators
 import tying
 from conftest import RESULTS
+from sweep_columns import Cell, SweepTable
 from tables import read_table
 
 
@@ -83,6 +86,23 @@ def test_sliding_by_speed_and_stiffness(tmp_path):
     sliding_map.write_tables(places, tmp_path)
     assert read(tmp_path, "sliding")[1:] == [["2", "23 of 40", "23 of 23", "96 %", "1e+02", "3.0", "3.0"], ["all", "23 of 40", "23 of 23", "96 %", "", "", ""]]
     assert read(tmp_path, "sliding_stiffness")[1:] == [["1e+03", "3 of 10"], ["2e+03", "0 of 10"]]
+
+
+def test_only_slides_by_both_ends_come_to_the_head():
+    figures = {name: np.ones(3) for name in ("release_from_s", "tighten_from_s", "sliding_force_dyn", "work_thigmotaxis_erg", "slide_distance_cm")}
+    table = SweepTable({sliding_map.STIFFNESS: ["10"] * 3, sliding_map.SPEED: ["2"] * 3}, {
+        "slide": ["slides by both ends", "only grows", "slides by both ends"], "outcome": ["ok"] * 3, "unmet": [""] * 3}, figures)
+    (place,) = sliding_map.places_of(table)
+    assert (place.starts, place.tied, place.arrived) == (3, 3, 2)
+
+
+def test_few_numbers_slide_what_both_ends_of_the_knot_slide():
+    cell = lambda unmet, share, outcome="ok": Cell({}, {"outcome": outcome, "unmet": unmet}, {"both_ends_percent": share, "slide_distance_cm": 9.0}, Path())
+    good, grows, lost = cell("energy loss", 93.0), cell("slide of both ends", 20.0), cell("", 99.0, "lost")
+    assert [few_numbers.slid(each) for each in (good, grows, lost)] == [True, False, False]
+    assert [few_numbers.share(each) for each in (good, grows, lost)] == [0.93, 0.2, 0.0]
+    counts = {6: {("knot",): [good]}, 9: {("knot",): [good, grows]}, 12: {("knot",): [good]}, 18: {("knot",): [good, good]}}
+    assert few_numbers.least(counts, ("knot",)) == "12" and few_numbers.told([good, grows]) == "1 of 2; 0.57, 0.20"
 
 
 def test_claims_by_change():

@@ -82,7 +82,7 @@ def test_a_complete_run_may_have_failed(content, log):
 def sweep(content, tmp_path):
     """A sweep of one run that fails the bound on penetration."""
     def write(unmet="penetration"):
-        write_csv(tmp_path / "table.csv", ["cell", *TEXTS, *FIGURES], [[0, "ok", unmet, "", "3_1", "", *[1.0] * len(FIGURES)]])
+        write_csv(tmp_path / "table.csv", ["cell", *TEXTS, *FIGURES], [[0, "ok", unmet, "", "3_1", "only grows", *[1.0] * len(FIGURES)]])
         (tmp_path / "logs").mkdir()
         content.write(tmp_path / "logs/0.h5")
         return slides.read_slides(tmp_path)
@@ -94,6 +94,7 @@ def test_a_slide_as_commanded_and_as_measured(sweep):
     assert (slide.knot, slide.commanded, slide.allowed) == ("3_1", 2.0, 0.0015)
     assert slide.speed == pytest.approx(SPEED, rel=1e-9)  # the knot outruns its command
     assert slide.travel == pytest.approx(6, rel=1e-9)
+    assert slide.follows == pytest.approx(6, rel=1e-9) and slide.kind == "only grows"
     assert (slide.force, slide.peak, slide.capped, slide.slack, slide.met) == (200, 200, 0, 0, 1)
     assert not slide.failure and slide.seconds == pytest.approx(60 * STEP * STEPS)
 
@@ -116,7 +117,8 @@ def test_pages_of_slides_have_their_tables(content, sweep, tmp_path):
     sweep()
     speeds.main(tmp_path)
     (row,) = read_table(tmp_path / "tables/speeds.csv").rows
-    assert row == ["3_1", "2", "5", "200", "200", "100.0", "0", "0", "0", "complete"]
+    assert row == ["3_1", "2", "5", "only grows", "200", "200", "100.0", "0", "0", "0", "complete"]
+    assert not speeds.good(dict(zip(speeds.HEAD, row))) and speeds.good(dict(zip(speeds.HEAD, row)) | {speeds.SLIDE: speeds.BOTH_ENDS})
     reverse.main(tmp_path)  # of a run that never turned
     (row,) = read_table(tmp_path / "tables/reverse.csv").rows
     assert (*row[:3], row[-1]) == ("3_1", "3", "nan", "untied at the tail")
