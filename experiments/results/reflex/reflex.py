@@ -19,7 +19,7 @@ import skin
 import tables
 from hagfish_log import HagfishLog
 from log_pictures import take_pictures
-from reflex_runs import Row, read_table
+from reflex_runs import BOTH_ENDS, Row, read_table
 from script import run_script
 from sweep_columns import read_cells
 from tables import shown
@@ -61,7 +61,11 @@ def came(row: Row | None) -> str:
         return "not run"
     if row.way is None or row.time is None:
         return UNTIED
-    return f"{row.way:.1f} in {row.time:.1f} s" if row.slid == "yes" else f"lost at {row.way:.1f}" if row.held == "no" else f"{row.way:.1f}"
+    if row.held == "no":
+        return f"lost at {row.way:.1f}"
+    if row.slid == "yes":
+        return f"{row.way:.1f} in {row.time:.1f} s"
+    return f"{row.way:.1f}" + (f": {row.kind}" if row.kind not in ("", "does not slide", BOTH_ENDS) else "")
 
 
 def knots_table(rows: list[Row]) -> Cells:
@@ -309,7 +313,7 @@ def draw_torque(axes: Any, folder: Path) -> None:
 
 
 def draw_speeds(axes: Any, rows: list[Row]) -> None:
-    """Open where the knot came less far than its scene asks."""
+    """Open where the knot came less far than its scene asks, or not by both ends."""
     own = [row for row in pick(rows, study="speed") if row.way and row.setting.endswith("; 2")]
     shift_of = lambda row: float(row.setting.split("; ")[0])
     for row in own:
@@ -333,7 +337,7 @@ def draw(folder: Path, rows: list[Row], out: Path) -> None:
     draw_speeds(speeds, rows)
     handles = plots.knot_handles(ways)
     handles += ways.plot([], [], color=plots.GREY, ls="--", label="in MuJoCo")
-    handles += ways.plot([], [], color=plots.INK, marker="o", ls="", mfc="white", label="short of the head")
+    handles += ways.plot([], [], color=plots.INK, marker="o", ls="", mfc="white", label="short, or grows")
     handles += ways.plot([], [], color=plots.GREY, ls=":", label=r"$v=\Delta\,(B_a+B)/C$")
     plots.legend_above(figure, handles, 4, 0.13, columnspacing=1)
     plots.save(figure, out)

@@ -231,10 +231,10 @@ def slides(made: Callable[[], dict[str, Callable[..., None]]]) -> Iterator[list[
                 held = error.outcome != "knot lost"
             yield [knot, "clamped", hagfish.revision[:12], name, f"{start or np.nan:.4g}", f"{head or np.nan:.4g}",
                    f"{sim.time - begin:.4g}", "yes" if held else "no",
-                   "yes" if held and sim.phase not in ("tighten", "slide") else "no"]
+                   "yes" if held and sim.phase not in ("tighten", "slide") else "no", sim.slide["name"] if sim.slide else ""]
 
 
-SLIDES = ["knot", "head", "commit", "law", "head_end_from_cm", "head_end_to_cm", "slide_s", "type_held", "reached_head"]
+SLIDES = ["knot", "head", "commit", "law", "head_end_from_cm", "head_end_to_cm", "slide_s", "type_held", "reached_head", "slide"]
 TABLES = {"laws": (SLIDES, lambda: slides(laws)), "rate": (SLIDES, lambda: slides(rates)),
           "loose": (["task", "knot", "commit", "begin_s", "growth", "slide_s", "types", "span_from_cm", "span_least_cm"], loose)}
 

@@ -16,6 +16,7 @@ from sweep_columns import Cell, read_cells
 
 APART = 5  # frames between two shapes of which the wave's speed is found: 0.1 s
 KINDS = ("bend_y", "bend_z")
+BOTH_ENDS = "slides by both ends"
 # Arcs from the head, cm, between which a slide is timed: what begins and ends a slide, contacts that come and go, is not of it.
 MIDDLE = {"3_1": (9.3, 3.0), "4_1": (5.4, 2.4), "5_1": (4.4, 2.2), "5_2": (4.5, 2.2)}
 
@@ -31,7 +32,8 @@ class Row:
     way: float | None = None  # of the knot's head end while it slides
     time: float | None = None  # of the slide
     held: str = ""  # the knot kept its type: "yes" or "no"
-    slid: str = ""  # it did, and came as far as the scene asks
+    slid: str = ""  # it did, came as far as the scene asks, and slid by both ends where that was judged
+    kind: str = ""  # what the slide is by both ends, as `hagfish sweep` names it; empty where it was not judged
     torque: float | None = None  # largest of a hinge in the slide, dyn cm
     effort: float | None = None  # (1/L) integral |torque| ds dt for each cm of way, dyn s
     work: float | None = None  # net, of all torques, for each cm, erg/cm
@@ -82,9 +84,9 @@ def number(text: str) -> str:
 def sweep_row(study: str, setting: str, cell: Cell) -> Row:
     scene, of, held = cell.axes["scene"], cell.figures, cell.outcome == "ok"
     known = lambda value: None if np.isnan(value) else value
-    slid = held and "slide" not in cell.unmet and of["slide_distance_cm"] > 0
+    slid = held and not {"slide", "slide of both ends"} & set(cell.unmet) and of["slide_distance_cm"] > 0
     return Row(study, plots.knot_of(scene), head_of(scene), setting, known(of["slide_distance_cm"]),
-               known(of["duration_s"] - of["slide_from_s"]), "yes" if held else "no", "yes" if slid else "no", pull=known(of["pull_N"]))
+               known(of["duration_s"] - of["slide_from_s"]), "yes" if held else "no", "yes" if slid else "no", cell.texts["slide"], pull=known(of["pull_N"]))
 
 
 Axes = dict[str, str]  # of a run: its place on each axis of the sweep
@@ -243,7 +245,8 @@ def commit_of(folder: Path) -> str:
 def read_laws(part: str, path: Path) -> list[Row]:
     return [Row(part, line["knot"], line["head"], line["law"],
                 float(line["head_end_from_cm"]) - float(line["head_end_to_cm"]),
-                float(line["slide_s"]), line["type_held"], line["reached_head"], commit=line["commit"])
+                float(line["slide_s"]), line["type_held"], "yes" if line["reached_head"] == "yes" and line["slide"] == BOTH_ENDS else "no",
+                line["slide"], commit=line["commit"])
             for line in tables.read_csv(path, ["law"])]
 
 
