@@ -32,8 +32,8 @@ struct ReducedBasisStorage {
 
 /// The law all_contacts except in the slide, where torques u = B a replace the forces of Eq. 6. The
 /// rows stay, with zero effort, so that the log shows how far they are met. In each period a is the
-/// smallest that meets Eq. 6 at all contacts at the end of one linearly implicit step of that length
-/// through the O(n) model. This step holds the contacts and limits that carry force when
+/// smallest that meets Eq. 6 at all contacts at the end of one linearly implicit step of that
+/// length through the O(n) model. This step holds the contacts and limits that carry force when
 /// all_contacts acts.
 /// `memory` holds a ReducedBasisMemory in the slide, else nothing.
 void reduced_basis_law(const Situation& at, Eigen::VectorXd& memory, Control& control,

@@ -106,10 +106,11 @@ def test_few_numbers_slide_what_both_ends_of_the_knot_slide():
 
 
 def test_claims_by_change():
-    run = lambda reading, outcome, word: {"reading": reading, "change": "Table 1", "step": 0.005, "outcome": outcome} | dict.fromkeys(
+    run = lambda reading, outcome, word, slide="slides by both ends": {
+        "reading": reading, "change": "Table 1", "step": 0.005, "outcome": outcome, "slide": slide} | dict.fromkeys(
         claim_row.MEASURES, 0.1) | dict.fromkeys(claims.NAMES, "agrees") | {"near_over_far": 2.0, claims.NAMES[1]: word}
-    runs = [run("box", "slid", "agrees"), run("box", "slid", "undecided"), run("cone", "jammed", "agrees")]
-    assert claim_map.summary(runs)[0] == ["Table 1", "2 of 2", "2", "undecided", "0 of 1", "", "", "agrees", "0.1", "0.1", "agrees", "0.1", "agrees"]
+    runs = [run("box", "slid", "agrees"), run("box", "slid", "undecided"), run("cone", "jammed", "agrees"), run("cone", "slid", "agrees", "only grows")]
+    assert claim_map.summary(runs)[0] == ["Table 1", "2 of 2", "2", "undecided", "0 of 2", "", "", "agrees", "0.1", "0.1", "agrees", "0.1", "agrees"]
 
 
 def test_departures_of_one_title_share_a_row():
