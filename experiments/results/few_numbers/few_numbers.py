@@ -20,7 +20,7 @@ from script import run_script
 from sweep_columns import Cell, read_cells
 
 SCENES = {f"living_{name}": knot for name, knot in plots.SCENES.items()}
-CIRCUMSTANCES = ("as found", "3 degrees of noise at the start", "h = 2 ms", "60 bodies", "mirrored")  # in the order of transfers.toml
+CIRCUMSTANCES = ("as found", "3 degrees of noise at the start", "h = 2 ms", "60 bodies", "mirrored")  # in the order of study.sh
 FRAME, PERIOD = "controller.reduced_basis.frame", "controller.reduced_basis.period"
 
 

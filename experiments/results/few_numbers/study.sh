@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How few numbers slide a knot, in which frame, how often found (grids/numbers.toml), twenty starts of each (grids/starts.toml), a free
 # head (grids/free.toml), ten other animals (grids/animals.toml), what they take against f_thigmo (grids/effort.toml), and, for each
-# knot, numbers played by its place and shapes learned from f_thigmo (grids/transfers.toml). Leaves tables and few_numbers.png.
+# knot, numbers played by its place and shapes learned from f_thigmo. Leaves tables and few_numbers.png.
 # Stopped, it goes on where it was; logs that are there already are not made again.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
@@ -37,6 +37,19 @@ END
 }
 numbers_of overhand knot 3
 for knot in figure_eight double_overhand three_twist; do numbers_of "$knot" body 12; done
-cp "$grids/transfers.toml" "$out"
+cat >"$out/transfers.toml" <<'END'
+set = ["time.until=slide", "expect.types=[]"]
+
+[[axis]]
+scene = ["played_overhand.toml", "played_figure_eight.toml", "played_double_overhand.toml", "played_three_twist.toml",
+  "learned_overhand.toml", "learned_figure_eight.toml", "learned_double_overhand.toml", "learned_three_twist.toml"]
+
+# As found, and in other circumstances.
+[[axis]]
+"start.noise_deg" = [0.0, 3.0, 0.0, 0.0, 0.0]
+"time.step" = [0.005, 0.005, 0.002, 0.005, 0.005]
+"model.bodies" = [100, 100, 100, 60, 100]
+mirror = [false, false, false, false, true]
+END
 "$hagfish" sweep "$out/transfers.toml" --out "$out/transfers"
 draw few_numbers.py "$out"
