@@ -6,6 +6,11 @@ if(found EQUAL -1)
   message(SEND_ERROR "experiments/docs/reference/cpp.md does not quote experiments/example.cpp as it is")
 endif()
 
+string(REGEX REPLACE "\\.[0-9]+$" "" release ${VERSION})
+if(NOT page MATCHES "find_package\\(hagfish ${release} REQUIRED")
+  message(SEND_ERROR "experiments/docs/reference/cpp.md does not ask for the project's release, ${release}")
+endif()
+
 file(STRINGS ${ROOT}/CITATION.cff cited REGEX "^version:")
 if(NOT cited STREQUAL "version: ${VERSION}")
   message(SEND_ERROR "CITATION.cff: ${cited}, but the project is at ${VERSION}")
