@@ -68,12 +68,22 @@ def test_what_else_a_run_again_does_not_have_is_named(folder, change, told):
     assert any(told in text for text in said.values()), said
 
 
+def frames(part):
+    """Those that a running log has by now; 0 before there is one, and while it takes its name."""
+    try:
+        with h5py.File(part) as log:
+            return len(log["trajectory/time"])
+    except (OSError, KeyError):
+        return 0
+
+
 def test_a_run_that_goes_on_hears_signals_and_leaves_what_there_is(folder):
     """It is in a process of its own, which reads a log."""
     scene = ["table1", "--set", "time.step=0.0001"]
     process = subprocess.Popen([HAGFISH, "run", *scene, "--quiet", "--out", "heard.h5"], cwd=folder)
     part = folder / "heard.h5.part"
-    time.sleep(1.5)  # of a run of some ten seconds
+    while frames(part) < 100:  # of some 1,000: so many take longer than what is waited for below
+        time.sleep(0.01)
     process.kill()
     process.wait()
     left = part.read_bytes()
