@@ -1,7 +1,7 @@
 """Slides of the studies of knots: what was commanded and what came of it."""
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from hagfish_log import HagfishLog
 from means import WINDOW, read_means
 from summary import step_phases
-from sweep_columns import read_cells
+from sweep_columns import Cell, read_cells
 
 LEAST_FRAMES = 5  # of a slide with a speed
 AT_CAP = 0.999  # of the cap, a multiplier that is at it
@@ -34,7 +34,7 @@ class Slide:
     allowed: float  # deepest that the scene expects
     failure: str  # why the run did not go on to its end; empty where it did
     seconds: float
-    kind: str = ""  # what the slide is by both ends, as `hagfish sweep` names it; empty where there is none
+    kind: str  # what the slide is by both ends, as `hagfish sweep` names it; empty where there is none
 
 
 def cause(status: str) -> str:
@@ -62,8 +62,8 @@ def failure_of(log: HagfishLog, unmet: list[str]) -> str:
     return ""
 
 
-def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
-    """`unmet`: criteria of the scene that the run does not meet, as `hagfish check` and `hagfish sweep` name them."""
+def slide_of(cell: Cell, phase: str) -> Slide:
+    log = cell.log
     scene = log.scene()
     end, other = ("head", "tail") if phase == "slide" else ("tail", "head")
     frames = log.in_phase(phase)
@@ -77,7 +77,7 @@ def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
     some = moved and means.end.size > 0
     steps = step_phases(log) == phase
     at_cap = log["/steps/thigmotaxis_lambda"][steps] >= AT_CAP * scene["controller"]["cap"]
-    ended = str(log.attribute("status")) == "complete" and "unknot at end" not in unmet
+    ended = str(log.attribute("status")) == "complete" and "unknot at end" not in cell.unmet
     commanded = float(scene["controller"][f"{phase}_head"]["a"])
     return Slide(scene["expect"]["knot"], commanded, sign * slope, sign * travel, sign * follows,
                  float(np.median(means.total)) if some else np.nan, float(means.total.max()) if some else np.nan,
@@ -85,10 +85,10 @@ def slide_of(log: HagfishLog, unmet: list[str], phase: str) -> Slide:
                  float(np.nanmedian(np.fmax.reduce(means.slack, axis=1))) if some else np.nan,
                  float((log["/steps/eq6"][steps] == 1).mean()) if steps.any() else np.nan,
                  float(log["/steps/penetration"][steps].max()) if steps.any() else np.nan, float(scene["expect"]["penetration"]),
-                 "" if ended else failure_of(log, unmet), float(time[-1] - time[0]) if moved else np.nan)
+                 "" if ended else failure_of(log, cell.unmet), float(time[-1] - time[0]) if moved else np.nan, cell.texts["slide"])
 
 
 def read_slides(folder: Path, phase: str = "slide") -> list[Slide]:
     """All runs of a sweep that kept its logs, by knot and speed."""
-    slides = [replace(slide_of(cell.log, cell.unmet, phase), kind=cell.texts["slide"]) for cell in read_cells(folder)]
+    slides = [slide_of(cell, phase) for cell in read_cells(folder)]
     return sorted(slides, key=lambda s: (s.knot, s.commanded))

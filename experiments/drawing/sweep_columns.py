@@ -14,6 +14,7 @@ from hagfish_log import HagfishLog, LogError
 TEXTS = {"outcome": "ok where the run came to its end, else why it stopped", "unmet": "criteria of [expect] that it does not meet",
          "message": "why it stopped", "knot": "type as tightening or the slide begins, or at the end where it comes to neither",
          "slide": "what the slide is by name: by both ends, or the knot only grows"}
+BOTH_ENDS = "slides by both ends"  # the only name of a slide that is one
 FIGURES = {  # unit, meaning
     "duration_s": ("s", "simulated"),
     "tighten_from_s": ("s", "start of tightening"),
@@ -62,6 +63,11 @@ class SweepTable:
         """Runs that came to their end and met all that their scene expects."""
         return np.array([outcome == "ok" and not unmet for outcome, unmet in zip(self.texts["outcome"], self.texts["unmet"])])
 
+    @property
+    def both_ends(self) -> np.ndarray:
+        """Runs whose knot slides by both ends."""
+        return np.array([slide == BOTH_ENDS for slide in self.texts["slide"]])
+
 
 def read_sweep(path: Path) -> SweepTable:
     with path.open(newline="", encoding="utf-8") as file:
@@ -102,6 +108,11 @@ class Cell:
     def unmet(self) -> list[str]:
         """Criteria of [expect]."""
         return self.texts["unmet"].split("; ")
+
+    @property
+    def slid(self) -> bool:
+        """The knot was kept, and slid by both ends as far as its scene asks."""
+        return self.outcome == "ok" and not {"slide", "slide of both ends"} & set(self.unmet) and self.figures["slide_distance_cm"] > 0
 
     @cached_property
     def log(self) -> HagfishLog:

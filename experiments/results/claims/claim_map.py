@@ -17,6 +17,7 @@ import plots
 import tables
 from hagfish_log import HagfishLog
 from script import run_script
+from sweep_columns import BOTH_ENDS
 from taken import taken
 
 GROWTH = claims.NAMES[1]
@@ -40,7 +41,7 @@ def groups(runs: list[Claim]) -> dict[tuple[str, str], list[Claim]]:
 
 def slid(runs: list[Claim]) -> list[Claim]:
     """A claim about the sliding force is judged of knots that slide by both ends alone."""
-    return [run for run in runs if run["outcome"] == "slid" and run["slide"] == "slides by both ends"]
+    return [run for run in runs if run["outcome"] == "slid" and run["slide"] == BOTH_ENDS]
 
 
 def draw(runs: list[Claim], out: Path) -> None:
@@ -105,8 +106,9 @@ def over_runs(runs: list[Claim], claim: str) -> str:
 
 
 def main(folder: Path, out: Path) -> None:
-    slides = {int(row["cell"]): row["slide"] for part in folder.glob("table.*.csv") for row in tables.read_csv(part, ["cell", "slide"])}
-    runs = [run | {"slide": slides[cell]} for cell, run in enumerate(taken(folder / "logs"))]
+    cells = [row for part in folder.glob("table.*.csv") for row in tables.read_csv(part, ["cell", "slide"])]
+    cells.sort(key=lambda row: int(row["cell"]))
+    runs = [run | {"slide": row["slide"]} for row, run in zip(cells, taken(folder / "logs"), strict=True)]
     draw(runs, out / "claims.png")
     tables.write_table(out, "claims", HEAD, summary(runs))
 

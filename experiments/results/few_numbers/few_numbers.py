@@ -19,18 +19,13 @@ from means import effort_per_cm, read_means
 from script import run_script
 from sweep_columns import Cell, read_cells
 
-SCENES = {f"living_{name}": knot for name, knot in plots.SCENES.items()}
-CIRCUMSTANCES = ("as found", "3 degrees of noise at the start", "h = 2 ms", "60 bodies", "mirrored")  # in the order of study.sh
+KNOTS = plots.SCENES.values()
 FRAME, PERIOD = "controller.reduced_basis.frame", "controller.reduced_basis.period"
 
 
 def count_of(cell: Cell) -> int:
     """How many numbers; 0 where Eq. 6 slides the knot."""
     return 3 * int(cell.axes["controller.reduced_basis.cosines"])
-
-
-def slid(cell: Cell) -> bool:
-    return cell.outcome == "ok" and not {"slide", "slide of both ends"} & set(cell.unmet)
 
 
 def share(cell: Cell) -> float:
@@ -51,7 +46,7 @@ def least(counts: dict[int, dict[tuple[str, ...], list[Cell]]], place: tuple[str
     """Numbers from which on, up to the most tried, all starts slide."""
     enough = "-"
     for count in sorted(counts, reverse=True):
-        if not all(slid(cell) for cell in counts[count][place]):
+        if not all(cell.slid for cell in counts[count][place]):
             break
         enough = str(count)
     return enough
@@ -59,19 +54,36 @@ def least(counts: dict[int, dict[tuple[str, ...], list[Cell]]], place: tuple[str
 
 def told(cells: list[Cell]) -> str:
     shares = [share(cell) for cell in cells]
-    return f"{sum(map(slid, cells))} of {len(cells)}; {np.median(shares):.2f}, {min(shares):.2f}"
+    return f"{sum(cell.slid for cell in cells)} of {len(cells)}; {np.median(shares):.2f}, {min(shares):.2f}"
 
 
-def starts_and_animals(folder: Path) -> list[list[str]]:
+def words_of(cell: Cell) -> str:
+    return f"{count_of(cell)} numbers, {FRAMES[cell.axes[FRAME]]}"
+
+
+Rows = dict[str, dict[str, str]]  # of a table: cells by the words of a row and the knot
+
+
+def starts_and_animals(folder: Path) -> Rows:
     """Of starts, and of the animals whose knot Eq. 6 slides, how many slide, with the median and the least share."""
-    starts, animals = by(folder / "starts"), by(folder / "animals", "specimen.length")
-    words = lambda count, of: f"{count} numbers, {FRAMES[next(iter(of[count].values()))[0].axes[FRAME]]}"
-    rows = []
-    for count in next(iter(starts.values())):
-        rows.append([f"starts by {words(count, next(iter(starts.values())))}", *(told(of[count][()]) for of in starts.values())])
-    for count in (count for count in next(iter(animals.values())) if count):
-        rows.append([f"other animals by {words(count, next(iter(animals.values())))}", *(
-            told([of[count][animal][0] for animal, (cell,) in of[0].items() if slid(cell)]) for of in animals.values())])
+    rows: dict[str, dict[str, list[Cell]]] = {}
+    by_eq6 = {}
+    for sweep, start in (("starts", "starts"), ("animals", "other animals")):
+        for cell in read_cells(folder / sweep):
+            knot, animal = plots.knot_of(cell.axes["scene"]), cell.axes.get("specimen.length")
+            if not count_of(cell):
+                by_eq6[knot, animal] = cell.slid
+            elif by_eq6.get((knot, animal), True):
+                rows.setdefault(f"{start} by {words_of(cell)}", {}).setdefault(knot, []).append(cell)
+    return {words: {knot: told(cells) for knot, cells in of.items()} for words, of in rows.items()}
+
+
+def meshes(sweep: Path) -> Rows:
+    """Shares by numbers, bodies and step."""
+    rows: Rows = {}
+    for cell in read_cells(sweep):
+        where = f"{words_of(cell)}; {cell.axes['model.bodies']} bodies, {1000 * float(cell.axes['time.step']):g} ms"
+        rows.setdefault(where, {})[plots.knot_of(cell.axes["scene"])] = f"{share(cell):.2f}"
     return rows
 
 
@@ -99,23 +111,36 @@ def effort_of(cell: Cell) -> float:
     return effort_per_cm(cell.log, replace(means, force=basis_torque(cell.log)[means.end]) if count_of(cell) else means)
 
 
-def efforts(sweep: Path) -> list[list[str]]:
+def efforts(sweep: Path) -> Rows:
     """The effort over that of f_thigmo, of those alone that slide."""
-    cells = {knot: {count: cell for count, ((cell,),) in ((count, of.values()) for count, of in counts.items())} for knot, counts in by(sweep).items()}
-    eq6 = {knot: effort_of(of[0]) for knot, of in cells.items()}
-    rows = [["f_thigmo of Eq. 6, dyn s for each cm", *(f"{eq6[knot]:.0f}" for knot in cells)]]
-    for count in (count for count in next(iter(cells.values())) if count):
-        rows.append([f"{count} numbers, over that", *(f"{effort_of(of[count]) / eq6[knot]:.2f}" if slid(of[count]) else "-"
-                                                      for knot, of in cells.items())])
+    eq6: dict[str, float] = {}
+    rows: Rows = {"f_thigmo of Eq. 6, dyn s for each cm": {}}
+    for cell in read_cells(sweep):  # of each knot Eq. 6 comes first
+        knot = plots.knot_of(cell.axes["scene"])
+        if count := count_of(cell):
+            rows.setdefault(f"{count} numbers, over that", {})[knot] = f"{effort_of(cell) / eq6[knot]:.2f}" if cell.slid else "-"
+        else:
+            eq6[knot] = effort_of(cell)
+            rows["f_thigmo of Eq. 6, dyn s for each cm"][knot] = f"{eq6[knot]:.0f}"
     return rows
 
 
-def transfers(sweep: Path, name: str) -> list[list[str]]:
-    cells: dict[str, list[Cell]] = {}
+def circumstance(axes: dict[str, str]) -> str:
+    """What a run of transfers.toml has otherwise than the run that its numbers or shapes were found in."""
+    noise, step = float(axes["start.noise_deg"]), 1000 * float(axes["time.step"])
+    other = {f"{noise:g} degrees of noise at the start": noise > 0, f"h = {step:g} ms": step != 5,
+             f"{axes['model.bodies']} bodies": axes["model.bodies"] != "100", "mirrored": axes["mirror"] == "true"}
+    return next((words for words, so in other.items() if so), "as found")
+
+
+def transfers(sweep: Path, name: str) -> Rows:
+    rows: Rows = {}
     for cell in read_cells(sweep):
-        cells.setdefault(Path(cell.axes["scene"]).stem, []).append(cell)
-    told_of = lambda cell: f"{share(cell):.2f}; {cell.figures['duration_s'] - cell.figures['slide_from_s']:.1f}" if share(cell) else "lost"
-    return [[words, *(told_of(cells[f"{name}_{short}"][k]) for short in plots.SCENES)] for k, words in enumerate(CIRCUMSTANCES)]
+        which, _, short = Path(cell.axes["scene"]).stem.partition("_")
+        if which == name:
+            rows.setdefault(circumstance(cell.axes), {})[plots.SCENES[short]] = (
+                f"{share(cell):.2f}; {cell.figures['duration_s'] - cell.figures['slide_from_s']:.1f}" if share(cell) else "lost")
+    return rows
 
 
 def main(folder: Path) -> None:
@@ -124,15 +149,20 @@ def main(folder: Path) -> None:
     points = [[knot, frame, period, str(count), f"{share(cell):.3f}"] for knot, counts in numbers.items() for frame, period in places
               for count in counts for cell in counts[count][frame, period]]
     picture.draw([dict(zip(picture.HEAD, row)) for row in points], folder / "few_numbers.png")
-    table = lambda name, first, rows: tables.write_table(folder, f"few_numbers{name}", [first, *SCENES.values()], rows)
+
+    def table(name: str, first: str, rows: Rows) -> None:
+        tables.write_table(folder, f"few_numbers{name}", [first, *KNOTS], [[words, *(of[knot] for knot in KNOTS)] for words, of in rows.items()])
+
     tables.write_table(folder, "few_numbers_points", picture.HEAD, points)
-    table("", "least numbers from which on all slide by both ends", [
-        [f"{FRAMES[place[0]]}, each {1000 * float(place[1]):g} ms", *(least(counts, place) for counts in numbers.values())] for place in places])
+    table("", "least numbers from which on all slide by both ends", {
+        f"{FRAMES[place[0]]}, each {1000 * float(place[1]):g} ms": {knot: least(counts, place) for knot, counts in numbers.items()} for place in places})
     table("_starts", "slide by both ends; share: median, least", starts_and_animals(folder))
+    table("_meshes", "share of a slide by both ends, of which 0.7 is one", meshes(folder / "meshes"))
     table("_effort", "effort along the body, each 100 ms", efforts(folder / "effort"))
     periods = [period for period, in next(iter(next(iter(free.values())).values()))]
-    table("_free", f"free head: share of a slide by both ends, each {', '.join(f'{1000 * float(p):g}' for p in periods)} ms", [
-        [f"{count} numbers", *(", ".join(f"{share(of[count][p,][0]):.2f}" for p in periods) for of in free.values())] for count in next(iter(free.values()))])
+    table("_free", f"free head: share of a slide by both ends, each {', '.join(f'{1000 * float(p):g}' for p in periods)} ms", {
+        f"{count} numbers": {knot: ", ".join(f"{share(of[count][p,][0]):.2f}" for p in periods) for knot, of in free.items()}
+        for count in next(iter(free.values()))})
     table("_played", "played by the knot's place: share of a slide by both ends; s", transfers(folder / "transfers", "played"))
     table("_learned", "learned shapes: share of a slide by both ends; s", transfers(folder / "transfers", "learned"))
 

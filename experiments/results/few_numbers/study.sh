@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# How few numbers slide a knot, in which frame, how often found (grids/numbers.toml), twenty starts of each (grids/starts.toml), a free
-# head (grids/free.toml), ten other animals (grids/animals.toml), what they take against f_thigmo (grids/effort.toml), and, for each
-# knot, numbers played by its place and shapes learned from f_thigmo. Leaves tables and few_numbers.png.
+# How few numbers slide a knot, in which frame, how often found (grids/numbers.toml), twenty starts of each (grids/starts.toml), other
+# meshes and steps (grids/meshes.toml), a free head (grids/free.toml), ten other animals (grids/animals.toml), what they take against
+# f_thigmo (grids/effort.toml), and, for each knot, numbers played by its place and shapes learned from f_thigmo.
+# Leaves tables and few_numbers.png.
 # Stopped, it goes on where it was; logs that are there already are not made again.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
-for grid in numbers starts free effort; do "$hagfish" sweep "$grids/$grid.toml" --out "$out/$grid"; done
+for grid in numbers starts meshes free effort; do "$hagfish" sweep "$grids/$grid.toml" --out "$out/$grid"; done
 swept_animals
 
 # numbers_of KNOT FRAME COSINES: its scene, a run of it, its numbers played by the knot's place, and shapes that f_thigmo has.

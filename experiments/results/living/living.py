@@ -38,7 +38,7 @@ class Run:
 
 
 def run_of(cell: Cell) -> Run:
-    log, slide = cell.log, slide_of(cell.log, cell.unmet, "slide")
+    log, slide = cell.log, slide_of(cell, "slide")
     torque = np.abs(np.nan_to_num(log["/forces/active"])).max(axis=1)  # no step begins at the end
     frames = {phase: log.in_phase(phase) for phase in PHASES}
     return Run(plots.knot_of(cell.axes["scene"]), not failure_of(log, cell.unmet), slide.travel, cell.figures["both_ends_percent"], slide.met,

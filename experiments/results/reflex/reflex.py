@@ -19,9 +19,9 @@ import skin
 import tables
 from hagfish_log import HagfishLog
 from log_pictures import take_pictures
-from reflex_runs import BOTH_ENDS, Row, read_table
+from reflex_runs import Row, read_table
 from script import run_script
-from sweep_columns import read_cells
+from sweep_columns import BOTH_ENDS, read_cells
 from tables import shown
 
 KNOTS = list(plots.KNOTS)
@@ -265,6 +265,7 @@ def figures_table(rows: list[Row]) -> Cells:
         ["of these kept by the reflex", str(len(pick(lost, held="yes")))],
         ["soft bodies at the head by the reflex", str(len(pick([own for own, _ in soft], slid="yes")))],
         ["soft bodies at the head by Eq. 6", str(len(pick([other for _, other in soft], slid="yes")))],
+        ["MuJoCo, from the straight body: slid", slid_of(pick(rows, study="mujoco", setting=""))],
         ["MuJoCo with drag, whole slide", ratios("time", with_drag)],
         ["MuJoCo with drag, middle", ratios("middle", with_drag)],
         ["MuJoCo without drag", ratios("time", lambda setting: setting == "no drag")],

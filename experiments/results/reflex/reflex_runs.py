@@ -7,16 +7,16 @@ from pathlib import Path
 
 import numpy as np
 
+import audits
 import claims
 import plots
 import skin
 import tables
 from hagfish_log import HagfishLog
-from sweep_columns import Cell, read_cells
+from sweep_columns import BOTH_ENDS, Cell, read_cells
 
 APART = 5  # frames between two shapes of which the wave's speed is found: 0.1 s
 KINDS = ("bend_y", "bend_z")
-BOTH_ENDS = "slides by both ends"
 # Arcs from the head, cm, between which a slide is timed: what begins and ends a slide, contacts that come and go, is not of it.
 MIDDLE = {"3_1": (9.3, 3.0), "4_1": (5.4, 2.4), "5_1": (4.4, 2.2), "5_2": (4.5, 2.2)}
 
@@ -32,8 +32,8 @@ class Row:
     way: float | None = None  # of the knot's head end while it slides
     time: float | None = None  # of the slide
     held: str = ""  # the knot kept its type: "yes" or "no"
-    slid: str = ""  # it did, came as far as the scene asks, and slid by both ends where that was judged
-    kind: str = ""  # what the slide is by both ends, as `hagfish sweep` names it; empty where it was not judged
+    slid: str = ""  # it did, and slid by both ends as far as the scene asks
+    kind: str = ""  # what the slide is by both ends: as `hagfish sweep` names it, or its share; empty where it was not judged
     torque: float | None = None  # largest of a hinge in the slide, dyn cm
     effort: float | None = None  # (1/L) integral |torque| ds dt for each cm of way, dyn s
     work: float | None = None  # net, of all torques, for each cm, erg/cm
@@ -84,9 +84,8 @@ def number(text: str) -> str:
 def sweep_row(study: str, setting: str, cell: Cell) -> Row:
     scene, of, held = cell.axes["scene"], cell.figures, cell.outcome == "ok"
     known = lambda value: None if np.isnan(value) else value
-    slid = held and not {"slide", "slide of both ends"} & set(cell.unmet) and of["slide_distance_cm"] > 0
     return Row(study, plots.knot_of(scene), head_of(scene), setting, known(of["slide_distance_cm"]),
-               known(of["duration_s"] - of["slide_from_s"]), "yes" if held else "no", "yes" if slid else "no", cell.texts["slide"], pull=known(of["pull_N"]))
+               known(of["duration_s"] - of["slide_from_s"]), "yes" if held else "no", "yes" if cell.slid else "no", cell.texts["slide"], pull=known(of["pull_N"]))
 
 
 Axes = dict[str, str]  # of a run: its place on each axis of the sweep
@@ -257,9 +256,12 @@ def log_row(study: str, path: Path) -> Row:
     head, time = log["/knot/head_end"][slide], log["/trajectory/time"][slide]
     scene, _, setting = path.stem.partition("-")
     held = str(log.attribute("status")) == "complete"
+    judged = audits.audit(path)
+    grows = "slide of both ends" in audits.unmet(judged)
+    came = held and log["/trajectory/time"][-1] < log.scene()["time"]["duration"] - 1
     return Row(study, plots.knot_of(scene), head_of(scene), setting.replace("_", " "),
                float(head[0] - np.nanmin(head)), float(time[-1] - time[0]), "yes" if held else "no",
-               "yes" if held and log["/trajectory/time"][-1] < log.scene()["time"]["duration"] - 1 else "no",
+               "yes" if came and not grows else "no", f"{audits.value_of(judged, 'slide of both ends'):.0f} % by both ends" if grows else BOTH_ENDS,
                middle=middle_of(log, plots.knot_of(scene)), commit=str(log.attribute("git_revision"))[:12])
 
 

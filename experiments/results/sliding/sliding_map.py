@@ -45,11 +45,10 @@ def quartiles(values: np.ndarray) -> np.ndarray:
 def places_of(table: SweepTable) -> list[Place]:
     stiffness, speed = (np.array([float(value) for value in table.axes[key]]) for key in (STIFFNESS, SPEED))
     figures = table.figures
-    both = np.array([slide == "slides by both ends" for slide in table.texts["slide"]])
     found = []
     for k, v in sorted({(k, v) for k, v in zip(stiffness, speed)}):
         here = (stiffness == k) & (speed == v)
-        arrived = here & np.isfinite(figures[ARRIVED]) & both
+        arrived = here & np.isfinite(figures[ARRIVED]) & table.both_ends
         found.append(Place(k, v, int(here.sum()), int((here & np.isfinite(figures["tighten_from_s"])).sum()), int(arrived.sum()),
                            int((here & table.passed).sum()), quartiles(figures["sliding_force_dyn"][arrived]),
                            quartiles((figures["work_thigmotaxis_erg"] / figures["slide_distance_cm"])[arrived])))

@@ -73,7 +73,7 @@ def run_rows(folder: Path, most: float) -> list[list[str]]:
         knots = np.array([" ".join(knot_of(scene)) for scene in table.axes["scene"]])
         by = np.array([f"{value}, {bodies} bodies" for value, bodies in zip(table.axes[axis], table.axes["model.bodies"])]
                       if grid == "steps" else table.axes[axis])
-        slid = (np.array(table.texts["slide"]) == "slides by both ends") & (np.array(table.texts["outcome"]) == "ok")
+        slid = table.both_ends & (np.array(table.texts["outcome"]) == "ok")
         for value in dict.fromkeys(by) if grid != "starts" else [""]:
             of = by == value if grid != "starts" else np.ones(len(by), dtype=bool)
             failed = [f"{knot} {'' if np.isnan(share) else f'{share:.0f} %'}".strip() for knot,

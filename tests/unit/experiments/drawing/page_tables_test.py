@@ -25,6 +25,7 @@ import knots
 import leverage
 import living
 import reflex
+import reflex_runs
 import sliding_map
 import slit
 import stability
@@ -96,10 +97,24 @@ def test_only_slides_by_both_ends_come_to_the_head():
     assert (place.starts, place.tied, place.arrived) == (3, 3, 2)
 
 
+def test_a_knot_that_grows_has_no_time_on_the_reflex_s_page():
+    row = lambda **of: reflex_runs.Row("knockouts", "3_1", "clamped", "all", way=9.2, time=6.1, **of)
+    runs = [row(held="yes", slid="yes", kind=sweep_columns.BOTH_ENDS), row(held="yes", slid="no", kind="only grows"),
+            row(held="yes", slid="no", kind="does not slide"), row(held="no", slid="no")]
+    assert [reflex.came(run) for run in runs] == ["9.2 in 6.1 s", "9.2: only grows", "9.2", "lost at 9.2"]
+
+
+def test_few_numbers_know_in_what_circumstances_a_run_was():
+    usual = {"start.noise_deg": "0.0", "time.step": "0.005", "model.bodies": "100", "mirror": "false"}
+    other = [{}, {"start.noise_deg": "3.0"}, {"time.step": "0.002"}, {"model.bodies": "60"}, {"mirror": "true"}]
+    assert [few_numbers.circumstance(usual | each) for each in other] == [
+        "as found", "3 degrees of noise at the start", "h = 2 ms", "60 bodies", "mirrored"]
+
+
 def test_few_numbers_slide_what_both_ends_of_the_knot_slide():
     cell = lambda unmet, share, outcome="ok": Cell({}, {"outcome": outcome, "unmet": unmet}, {"both_ends_percent": share, "slide_distance_cm": 9.0}, Path())
     good, grows, lost = cell("energy loss", 93.0), cell("slide of both ends", 20.0), cell("", 99.0, "lost")
-    assert [few_numbers.slid(each) for each in (good, grows, lost)] == [True, False, False]
+    assert [each.slid for each in (good, grows, lost)] == [True, False, False]
     assert [few_numbers.share(each) for each in (good, grows, lost)] == [0.93, 0.2, 0.0]
     counts = {6: {("knot",): [good]}, 9: {("knot",): [good, grows]}, 12: {("knot",): [good]}, 18: {("knot",): [good, good]}}
     assert few_numbers.least(counts, ("knot",)) == "12" and few_numbers.told([good, grows]) == "1 of 2; 0.57, 0.20"
