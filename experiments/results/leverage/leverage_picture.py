@@ -69,7 +69,7 @@ def draw_seconds(axes: plots.plt.Axes, runs: Runs, seconds: Runs, body: str) -> 
     """The mean of each second; crosses where strands are too deep in each other."""
     for knot in plots.KNOTS:
         there = [row for row in seconds if (row["body"], row["knot"]) == (body, knot)]
-        deep = not chosen(runs, body, knot, "start")
+        deep = not chosen(runs, body, knot, "plain")  # of which the seconds are
         look = style({"body": body, "knot": knot, "too_deep": "yes" if deep else "no"})
         axes.plot([float(row["second"]) for row in there], pulls(there), **look | {"ls": ":" if deep else "-"})
     axes.set(xlabel="since the pull counts as settled, s", ylabel="pull, N", xlim=(0, None), ylim=(0, None))
@@ -78,7 +78,7 @@ def draw_seconds(axes: plots.plt.Axes, runs: Runs, seconds: Runs, body: str) -> 
 def draw(runs: Runs, seconds: Runs, out: Path) -> None:
     figure, axes = plots.plt.subplot_mosaic([[[["A", "B", "C"]]], [[["D", "E"]]]], figsize=(plots.WIDTH, 5.6), layout="constrained")
     caps, torques, rope, *over_time = axes.values()
-    plots.name_panels(axes.values(), ["the harder it slides", "what that asks of a joint", "against a rope",
+    plots.name_panels(axes.values(), ["by the force of a row", "what that asks of a joint", "against a rope",
                                       "over time, living body", "over time, Table 1 body"])
     draw_caps(caps, runs)
     caps.axhline(TOOTH_MUSCLE, color=plots.GREY, ls=":", lw=1)
