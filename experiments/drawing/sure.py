@@ -97,7 +97,9 @@ def read(folder: Path) -> Sure:
 
 
 def plain_name(figure: str) -> str:
-    """Without its unit."""
+    """Without its unit, where it has one."""
+    if FIGURES[figure][0] == "1":
+        return figure.replace("_", " ")
     unit = next(unit for unit in ("_cm_per_s", "_dyn_cm", "_" + figure.rsplit("_", 1)[-1]) if figure.endswith(unit))
     return figure.removesuffix(unit).replace("_", " ")
 

@@ -112,7 +112,7 @@ def draw(folder: Path, path: Path) -> None:
         axes.set_ylabel("time of the slide, s")
     for axes in panels[-len(DRAWN):]:
         axes.set_xlabel("along the body, cm")
-    panels[len(DRAWN) - 1].legend(loc="lower right")
+    plots.legend_above(figure, panels[0].get_legend_handles_labels()[0], 2, 0.03)
     figure.colorbar(image, ax=list(panels), label="curvature, 1/cm", shrink=0.4, aspect=50, location="right")
     plots.save(figure, path)
 
