@@ -31,8 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// s, that the knot is pulled together in the soft body: the program ends with a knot that holds.
-constexpr double tightening = 1.5;
+// s, that the knot is pulled together in the soft body, so that the program ends with a knot that
+// holds. A stiff knot that is tightened more does not slide: it grows.
+constexpr double tightening = 0.25;
 
 constexpr int few_starts = 4;   // of each law, before the animals and the other starts
 constexpr int few_animals = 4;  // that must repeat what is to be gone on from

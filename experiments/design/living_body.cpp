@@ -19,7 +19,7 @@ namespace {
 
 constexpr double between_times = 0.35;  // s of the soft body
 constexpr int station_count = 25;
-constexpr double time_to_slide = 28;  // s, as the base scene has behind its program
+constexpr double time_to_slide = 50;  // s, for half of a body
 
 /// The scene of a found program.
 std::string scene_text(const FoundScene& found) {
@@ -48,6 +48,8 @@ program = "{2}"
 
 [controller]
 tighten_from = {3:.2f}            # s: the program ends by pulling the knot together
+slide_head = {{ a = 0.5, b = 0.5 }}  # cm/s: knots of five crossings take more torque than muscles have at 1
+slide_tail = {{ a = 0.5, b = 0.5 }}
 {5}{6}
 [time]
 {7}

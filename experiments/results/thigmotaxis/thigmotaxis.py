@@ -12,12 +12,13 @@ import tables
 from hagfish_log import HagfishLog
 from overview import bending
 from script import run_script
-from sweep_columns import read_cells, read_sweep
+from sweep_columns import BOTH_ENDS, Cell, read_cells
 
 LAWS = {("paper", "centreline"): "two contacts", ("paper", "skin"): "two contacts, at the skin",
-        ("all_contacts", "skin"): "all contacts, at the skin", ("all_contacts", "centreline"): "all contacts"}
-DRAWN = ("two contacts", "all contacts", "reflex")
+        ("all_contacts", "centreline"): "all contacts", ("all_contacts", "skin"): "all contacts, at the skin"}
 REFLEX = "reflex"
+LIKE_PAPER = "two contacts, tightened"  # for the longest of grids/tightened.toml, as the paper does
+DRAWN = (LIKE_PAPER, "two contacts", "all contacts", REFLEX)
 VARIED = {"meshes": ("model.bodies", "bodies"), "steps": ("time.step", "time step, s"),
           "speeds": ("controller.slide_head.a", "commanded speed, cm/s"), "starts": ("start.seed", "start with noise, number")}
 BEFORE, AFTER = 0.5, 1.0  # s of the figure around the slide
@@ -30,7 +31,24 @@ def knot_of(scene: str) -> tuple[str, str]:
 
 
 def law_of(axes: dict[str, str]) -> str:
-    return LAWS[axes["controller.law"], axes["controller.eq6_at"]] if "controller.law" in axes else REFLEX
+    return LAWS[axes["controller.law"], axes.get("controller.eq6_at", "centreline")] if "controller.law" in axes else REFLEX
+
+
+def runs_by_law(folder: Path) -> dict[str, list[Cell]]:
+    """Of law and seconds of tightening, `law; s`: the runs of all knots."""
+    runs: dict[str, list[Cell]] = {}
+    for grid in ("laws", "tightened", "reflex"):
+        for cell in read_cells(folder / grid):
+            runs.setdefault(f"{law_of(cell.axes)}; {cell.axes.get('controller.tighten_time', '0')}", []).append(cell)
+    order = [*LAWS.values(), REFLEX]
+    place = lambda key: (order.index(key.split("; ")[0]), float(key.split("; ")[1]))
+    return {key: runs[key] for key in sorted(runs, key=place)}
+
+
+def compared(runs: dict[str, list[Cell]]) -> dict[str, list[Cell]]:
+    """Of laws without tightening, and of LIKE_PAPER."""
+    longest = max((key for key in runs if key.startswith("two contacts; ")), key=lambda key: float(key.split("; ")[1]))
+    return {LIKE_PAPER: runs[longest]} | {key.removesuffix("; 0"): of for key, of in runs.items() if key.endswith("; 0")}
 
 
 def work_per_cm(log: HagfishLog, way: float) -> tuple[float, float]:
@@ -46,10 +64,10 @@ def capacity(log: HagfishLog) -> float:
     return float(log.scene()["active"]["capacity"])
 
 
-def law_rows(folder: Path) -> list[list[str]]:
+def knot_rows(by_law: dict[str, list[Cell]]) -> list[list[str]]:
     rows = []
-    for cell in (cell for grid in ("laws", "reflex") for cell in read_cells(folder / grid)):
-        of, law = cell.figures, law_of(cell.axes)
+    for law, cell in [(law, cell) for law, of in by_law.items() for cell in of]:
+        of = cell.figures
         first = [*knot_of(cell.axes["scene"]), law]
         if not cell.texts["slide"]:
             rows.append([*first, *["-"] * 3, "never slides", *["-"] * 4])
@@ -60,42 +78,45 @@ def law_rows(folder: Path) -> list[list[str]]:
         rows.append([*first, f"{of['slide_distance_cm']:.1f}", f"{of['tail_distance_cm']:.1f} of {of['taper_asks_cm']:.1f}", travel,
                      cell.texts["slide"], met, f"{of['largest_torque_dyn_cm'] / capacity(cell.log):.2f}", f"{all_work:.2g}",
                      f"{thigmotaxis:.2g}"])
-    order = [*LAWS.values(), REFLEX]
-    return sorted(rows, key=lambda row: (row[0], row[1] == "free", order.index(row[2])))
+    return sorted(rows, key=lambda row: (row[0], row[1] == "free", list(by_law).index(row[2])))
 
 
-def run_rows(folder: Path, most: float) -> list[list[str]]:
-    """A row for each change, over all knots: how many runs slide by both ends, and by how much. `most`: the muscles' capacity, dyn cm."""
+COUNTED = ["slide by both ends", "least share, %", "median share, %", "least steps that meet Eq. 6, %", "largest torque, of capacity",
+           "which do not"]
+
+
+def counted(cells: list[Cell], most: float) -> list[str]:
+    """How many runs slide by both ends, and by how much. `most`: the muscles' capacity, dyn cm."""
+    figure = lambda name: np.array([cell.figures[name] for cell in cells])
+    shares, met = figure("both_ends_percent"), figure("eq6_percent")
+    slid = [cell.outcome == "ok" and cell.texts["slide"] == BOTH_ENDS for cell in cells]
+    failed = [" ".join([*knot_of(cell.axes["scene"]), "" if np.isnan(share) else f"{share:.0f} %"]).strip()
+              for cell, share, well in zip(cells, shares, slid) if not well]
+    return [f"{sum(slid)} of {len(slid)}", f"{np.nanmin(shares):.0f}", f"{np.nanmedian(shares):.0f}", f"{np.nanmin(met):.0f}" if met.any() else "",
+            f"{np.nanmax(figure('largest_torque_dyn_cm')) / most:.2f}", "; ".join(failed)]
+
+
+def change_rows(folder: Path, most: float) -> list[list[str]]:
+    """A row for each change of the runs at all contacts, over all knots."""
     rows = []
     for grid, (axis, words) in VARIED.items():
-        table = read_sweep(folder / grid / "table.csv")
-        shares, torque = table.figures["both_ends_percent"], table.figures["largest_torque_dyn_cm"]
-        knots = np.array([" ".join(knot_of(scene)) for scene in table.axes["scene"]])
-        by = np.array([f"{value}, {bodies} bodies" for value, bodies in zip(table.axes[axis], table.axes["model.bodies"])]
-                      if grid == "steps" else table.axes[axis])
-        slid = table.both_ends & (np.array(table.texts["outcome"]) == "ok")
-        for value in dict.fromkeys(by) if grid != "starts" else [""]:
-            of = by == value if grid != "starts" else np.ones(len(by), dtype=bool)
-            failed = [f"{knot} {'' if np.isnan(share) else f'{share:.0f} %'}".strip() for knot,
-                      share in zip(knots[of & ~slid], shares[of & ~slid])]
-            rows.append([words + (f": {value}" if value else f"s 1 to {len(set(by))}"), f"{slid[of].sum()} of {of.sum()}",
-                         f"{np.nanmin(shares[of]):.0f}", f"{np.nanmedian(shares[of]):.0f}",
-                         f"{np.nanmin(table.figures['eq6_percent'][of]):.0f}",
-                         f"{np.nanmax(torque[of]) / most:.2f}", "; ".join(failed)])
+        cells = list(read_cells(folder / grid))
+        if grid == "starts":
+            rows.append([f"{words}s 1 to {len({cell.axes[axis] for cell in cells})}", *counted(cells, most)])
+            continue
+        name = lambda cell: f"{words}: {cell.axes[axis]}" + (f", {cell.axes['model.bodies']} bodies" if grid == "steps" else "")
+        for value in dict.fromkeys(map(name, cells)):
+            rows.append([value, *counted([cell for cell in cells if name(cell) == value], most)])
     return rows
 
 
-def draw(folder: Path, path: Path) -> None:
+def draw(by_law: dict[str, list[Cell]], path: Path) -> None:
     """Curvature along the body through the slides: knots by laws."""
-    cells = {}
-    for cell in (cell for grid in ("laws", "reflex") for cell in read_cells(folder / grid)):
-        knot, head = knot_of(cell.axes["scene"])
-        if head == "held":
-            cells[knot, law_of(cell.axes)] = cell.log
+    cells = {(knot_of(cell.axes["scene"]), law): cell for law in DRAWN for cell in by_law[law]}
     titles = [f"{plots.KNOTS[knot].label.split()[0]}: {law}" for knot in plots.KNOTS for law in DRAWN]
-    figure, panels = plots.panels(len(plots.KNOTS), len(DRAWN), (8.6, 8.4), titles, sharex=True)
+    figure, panels = plots.panels(len(plots.KNOTS), len(DRAWN), (10.4, 8.4), titles, sharex=True)
     for axes, (knot, law) in zip(panels, [(knot, law) for knot in plots.KNOTS for law in DRAWN]):
-        log = cells[knot, law]
+        log = cells[(knot, "held"), law].log
         time, slide = log["/trajectory/time"], log.in_phase("slide")
         start, end = time[slide[0]], time[slide[-1]]
         shown = np.flatnonzero((time >= start - BEFORE) & (time <= end + AFTER))
@@ -118,13 +139,16 @@ def draw(folder: Path, path: Path) -> None:
 
 
 def main(folder: Path) -> None:
+    runs = runs_by_law(folder)
+    by_law = compared(runs)
+    most = capacity(by_law[LIKE_PAPER][0].log)  # one animal
+    tables.write_table(folder, "thigmotaxis_laws", ["Eq. 6 at", "tightened first, s", *COUNTED],
+                       [[*key.split("; "), *counted(of, most)] for key, of in runs.items()])
     tables.write_table(folder, "thigmotaxis", ["knot", "head", "Eq. 6 at", "head end of the knot, cm", "its tail end, of what taper asks, cm",
                                                "curvature travels, cm (correlation)", "the knot", "steps that meet Eq. 6, %", "largest torque, of capacity",
-                                               "work, erg/cm", "of it f_thigmo"], law_rows(folder))
-    tables.write_table(folder, "thigmotaxis_runs", ["what is changed", "slide by both ends", "least share, %", "median share, %",
-                                                    "least steps that meet Eq. 6, %", "largest torque, of capacity", "which do not"],
-                       run_rows(folder, capacity(next(read_cells(folder / "laws")).log)))  # one animal
-    draw(folder, folder / "thigmotaxis.png")
+                                               "work, erg/cm", "of it f_thigmo"], knot_rows(by_law))
+    tables.write_table(folder, "thigmotaxis_runs", ["what is changed", *COUNTED], change_rows(folder, most))
+    draw(by_law, folder / "thigmotaxis.png")
 
 
 if __name__ == "__main__":
