@@ -1,6 +1,7 @@
 """The tables of pages of results are what the studies' scripts write, of runs made up here."""
 
 import csv
+import json
 import re
 import shutil
 from pathlib import Path
@@ -33,6 +34,7 @@ import sweep_columns
 import thigmotaxis
 import two_simulators
 import tying
+import world
 from conftest import RESULTS
 from sweep_columns import Cell, SweepTable
 from tables import read_table
@@ -176,6 +178,21 @@ def test_slides_are_counted_by_what_is_varied(tmp_path):
         ["bodies: 60", "1 of 2", "10", "50", "98", "1.00", "4_1 free 10 %"], ["bodies: 100", "0 of 1", "80", "80", "97", "0.50", "3_1 held 80 %"],
         ["time step, s: 0.005, 100 bodies", "1 of 1", "75", "75", "100", "0.50", ""], ["commanded speed, cm/s: 0.5", "1 of 1", "85", "85", "100", "1.50", ""],
         ["start with noise, numbers 1 to 2", "2 of 2", "91", "92", "100", "0.50", ""]]
+
+
+def test_what_became_of_a_robot_follows_its_slide(tmp_path):
+    """A part of the sweep has the even cells, the other the odd ones."""
+    folder = tmp_path / "robot"
+    (folder / "logs").mkdir(parents=True)
+    for part, names in enumerate((["slides by both ends", "", "only grows"], ["only grows"])):
+        rows = "".join(f"{2 * k + part},{name}\n" for k, name in enumerate(names))
+        (folder / f"table.{part + 1}-of-2.csv").write_text("cell,slide\n" + rows)
+    for k, off in enumerate((True, True, False, False)):
+        (folder / f"logs/{k}.json").write_text(json.dumps(dict.fromkeys(
+            ("weight", "drag", "mass", "capacity", "stiffness", "way", "share", "torque", "penetration"), 1.0) | {"off": off}))
+    world.robot(tmp_path)
+    assert [row[5] for row in read(tmp_path, "world_robot")[1:]] == [
+        "it ties; the knot slides by both ends, and comes off", "it ties; the knot only grows, and comes off", "it never ties", "it ties, and loses the knot"]
 
 
 class Swept:
