@@ -196,14 +196,14 @@ def test_what_became_of_a_robot_follows_its_slide(tmp_path):
 
 
 class Swept:
-    def __init__(self, off, torque):
-        self.off, self.torque = off, {"form": torque}
+    def __init__(self, off, slid, share, torque):
+        self.off, self.slid, self.share, self.torque = off, slid, share, {"form": torque}
 
 
 def test_sweeps_of_living_animals():
     sweeps = {what: {"3_1": [], "4_1": []} for what in living.SWEEPS}
-    sweeps["drag"] = {"3_1": [(1.0, Swept(True, 2e5))], "4_1": [(1.0, Swept(False, 1e5))]}
-    assert living.sweep_rows(sweeps) == [["drag, times that of the scenes: 1", "1 of 2", "2e+05 to 2e+05"]]
+    sweeps["drag"] = {"3_1": [(1.0, Swept(True, True, 93, 2e5))], "4_1": [(1.0, Swept(True, False, 36, 1e5)), (1.0, Swept(False, False, 5, 1e5))]}
+    assert living.sweep_rows(sweeps) == [["drag, times that of the scenes: 1", "1 of 3", "36", "2e+05 to 2e+05"]]
 
 
 def test_ratios_of_steps():
