@@ -127,7 +127,7 @@ def main_table(folder: Path) -> None:
          *map(share, runs_of(folder / "heldstart"))],
         ["free: the same", *map(share, runs_of(folder / "freestart"))],
         ["of 10 other animals, clamped: the same", *map(share, animals)],
-        ["of these that slide: sliding steps that meet Eq. 6, %: median, least", *(f"{np.median(each):.0f}, {min(each):.0f}" for each in met)]])
+        ["of those off: sliding steps that meet Eq. 6, %: median, least", *(f"{np.median(each):.0f}, {min(each):.0f}" for each in met)]])
 
 
 def main(folder: Path) -> None:
