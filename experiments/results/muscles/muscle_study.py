@@ -69,10 +69,10 @@ def forward(folder: Path) -> None:
                 continue
             held = np.flatnonzero(np.isin(log.labels("/trajectory/phase"), ("tighten", "slide")))
             time = log["/trajectory/time"][frames]
-            kept = "kept" if len(set(log.knots(held))) == 1 else "lost"
-            rows.append([name, kept, f"{way(log):.2f}", f"{cell.figures['both_ends_percent']:.0f}",
+            does = cell.texts["slide"] if len(set(log.knots(held))) == 1 else "is lost"
+            rows.append([name, does, f"{way(log):.2f}", f"{cell.figures['both_ends_percent']:.0f}",
                          f"{way(log) / (time[-1] - time[0]):.2f}", f"{np.quantile(log['/muscle/driven'][frames], 0.999):.2f}"])
-    tables.write_table(folder, "muscles_forward", ["on activations", "type until release", "way of the head end, cm",
+    tables.write_table(folder, "muscles_forward", ["on activations", "the knot", "way of the head end, cm",
                                                    "share of a slide by both ends, %", "cm/s", "peak activation"], rows)
 
 

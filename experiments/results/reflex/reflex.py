@@ -173,9 +173,10 @@ def claims_table(rows: list[Row]) -> Cells:
         for row in pick(rows, study=study, head="clamped", setting=USUAL):
             if row.behind is not None:
                 body.append([row.knot, name, shown(row.behind, ".2g"), shown(row.near, ".2g"), row.rank,
-                             *(shown(value, ".2g") for value in (row.rough_space, row.rough_time, row.likeness))])
+                             row.rough_space, row.rough_time, shown(row.likeness, ".2g")])
     return ["knot", "law", "largest behind the knot, of the largest", "near the head, of far from it",
-            "grows to the head", "roughness along the body", "roughness in time", "cosine with the curvature's gradient"], body
+            "grows to the head", "roughness along the body: bend Y; bend Z; twist", "roughness in time: the same",
+            "cosine with the curvature's gradient"], body
 
 
 def pull_table(rows: list[Row]) -> Cells:
@@ -216,8 +217,8 @@ def mujoco_table(rows: list[Row]) -> Cells:
 def figures_table(rows: list[Row]) -> Cells:
     """What sentences of the page say and no other table has."""
     usual, paper, rate = pick(rows, study="knots", setting=USUAL), pick(rows, study="paper"), pick(rows, study="rate")
-    efforts = [own.effort / other.effort for own in usual if own.effort
-               for other in pick(paper, knot=own.knot, head=own.head) if other.effort]
+    twice = [(own, other) for own in usual if own.effort for other in pick(paper, knot=own.knot, head=own.head) if other.effort]
+    torque = lambda row: row.effort * row.speed
     tied = lambda *studies: [row for study in studies for row in pick(rows, study=study) if row.way is not None]
     shuffled = [row for row in pick(rows, study="laws") if row.setting.startswith("shuffled")]
     free = [row.speed / law_speed(SHIFT) for row in usual if row.head == "free"]
@@ -246,7 +247,8 @@ def figures_table(rows: list[Row]) -> Cells:
         ("knots", USUAL), ("mujoco", "from the slide")))
     steps = max(off(key, *settings) for key in ("time", "middle") for settings in ((FINE_STEP,), (FINEST, FINE_MESH)))
     return ["figure", "value"], [["runs that slid", slid_of(usual)],
-        ["effort, of that of Eq. 6", tables.span(efforts, ".2f")],
+        ["effort, of that of Eq. 6", tables.span([own.effort / other.effort for own, other in twice], ".2f")],
+        ["mean torque, of that of Eq. 6", tables.span([torque(own) / torque(other) for own, other in twice], ".2f")],
         ["times at two steps differ by at most, %", f"{steps:.1f}"],
         ["skins touch within, cm", f"{skin.TOUCHING:g}"],
         *([f"arcs of the middle, {knot}, cm", f"{first:g} to {last:g}"] for knot, (first, last) in reflex_runs.MIDDLE.items()),
@@ -255,7 +257,7 @@ def figures_table(rows: list[Row]) -> Cells:
         ["speed of a free head, of the law's", tables.span(free, ".2f")],
         ["way where nothing is copied, cm", tables.span(nothing, ".1f")],
         ["shuffled neighbours that lose the knot", f"{len(pick(shuffled, held='no'))} of {len(shuffled)}"],
-        ["runs by rate that came to the head", slid_of(rate)],
+        ["runs of held commands that slid", slid_of([row for row in rate if row.setting != "all joints"])],
         ["leap of a shape held for a second, cm", shown(law_speed(SHIFT), ".2g")],
         ["starts that slid", slid_of(tied("starts"))],
         ["animals that slid", slid_of(tied("animals"))],

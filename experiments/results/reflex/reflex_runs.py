@@ -45,8 +45,8 @@ class Row:
     behind: float | None = None  # largest torque behind the knot, of the largest
     near: float | None = None  # sum of torques in the third of the way nearest the head, of that in the furthest
     rank: str = ""  # claim (b): "agrees", "undecided", "disagrees"
-    rough_space: float | None = None  # roughness along the body, 1 of white noise: largest of three kinds of turn
-    rough_time: float | None = None  # in time: least of them
+    rough_space: str = ""  # roughness along the body, 1 of white noise: of bends Y and Z and of twist
+    rough_time: str = ""  # in time, of the same
     middle: float | None = None  # time of the knot's place between the two arcs of MIDDLE
     rings: float | None = None  # share of the body's length whose skin touched skin in the slide
     skin: float | None = None  # the same of its area
@@ -209,8 +209,8 @@ def add_log(row: Row, log: HagfishLog) -> None:
     size = np.abs(asked).sum(axis=1)
     row.near = claims.near_over_far(head, size)
     row.rank = claims.grows(row.near)
-    rough = [[claims.roughness(asked[:, kind == each], axis) for each in (*KINDS, "twist")] for axis in (1, 0)]
-    row.rough_space, row.rough_time = max(rough[0]), min(rough[1])
+    row.rough_space, row.rough_time = ("; ".join(tables.short(claims.roughness(asked[:, kind == each], axis), ".2g")
+                                                 for each in (*KINDS, "twist")) for axis in (1, 0))
     row.middle = middle_of(log, row.knot)
     row.rings, row.skin = skin.swept(log, log.in_phase("slide"))
 

@@ -89,11 +89,18 @@ def skin(folder: Path) -> None:
                         "never: these two, %", "never: sides between them, %"], rows)
 
 
+def became(slide: str, off: bool) -> str:
+    """`slide` as `hagfish sweep` names it; a released knot is gone (`off`) where the run comes to the phase free."""
+    return "it never ties" if not slide else f"it ties; the knot {slide}, and comes off" if off else "it ties, and loses the knot"
+
+
 def robot(folder: Path) -> None:
+    parts = [row for part in (folder / "robot").glob("table.*-of-*.csv") for row in tables.read_csv(part, ["cell", "slide"])]
+    slides = [row["slide"] for row in sorted(parts, key=lambda row: int(row["cell"]))]
     rows = [[f"{run['mass']:.3g}", f"{run['weight']:.2g}", f"{run['drag']:g}", f"{run['capacity']:g}", f"{run['stiffness']:g}",
-             run["became"],
+             became(slide, run["off"]),
              *("" if np.isnan(run[name]) else f"{run[name]:.3g}" for name in ("way", "share")), f"{run['torque']:.2g}", overlap(run)]
-             for run in taken(folder / "robot" / "logs")]
+             for run, slide in zip(taken(folder / "robot" / "logs"), slides, strict=True)]
     tables.write_table(folder, "world_robot", ["mass, kg", "weight left, of all of it", "drag across, kg/(s m)",
                                                "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
                                                "way of the head end, cm", "share of a slide by both ends, %",

@@ -76,9 +76,7 @@ def skin(log: HagfishLog) -> dict[str, Any]:
 def robot(log: HagfishLog) -> dict[str, Any]:
     scene, phase, slide = log.scene(), log.labels("/trajectory/phase"), log.in_phase("slide")
     way = float(log["/knot/head_end"][slide[0]] - log["/knot/head_end"][slide[-1]]) if slide.size else np.nan
-    # A released knot is gone where the run comes to the phase free.
-    became = "it never tied" if not slide.size else "it tied, slid and came off" if (phase == "free").any() else "it tied, and lost the knot"
     return {"weight": abs(scene["gravity"][2]) / 981, "drag": scene["drag"]["normal"] / 10, "mass": scene["specimen"]["mass"] / 1e3,
             "capacity": scene["active"]["capacity"] / 1e7,
-            "stiffness": scene["active"]["stiffness"] / 4e7, "became": became, "way": way, "share": audits.value_of(audits.audit(log.path), "slide of both ends"),
+            "stiffness": scene["active"]["stiffness"] / 4e7, "off": bool((phase == "free").any()), "way": way, "share": audits.value_of(audits.audit(log.path), "slide of both ends"),
             "torque": float(np.nanmax(np.abs(log["/mean/forces/active"][:, 6:]))) / 1e7, "penetration": penetration(log)}

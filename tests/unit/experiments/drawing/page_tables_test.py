@@ -1,6 +1,7 @@
 """The tables of pages of results are what the studies' scripts write, of runs made up here."""
 
 import csv
+import json
 import re
 import shutil
 from pathlib import Path
@@ -33,6 +34,7 @@ import sweep_columns
 import thigmotaxis
 import two_simulators
 import tying
+import world
 from conftest import RESULTS
 from sweep_columns import Cell, SweepTable
 from tables import read_table
@@ -178,15 +180,30 @@ def test_slides_are_counted_by_what_is_varied(tmp_path):
         ["start with noise, numbers 1 to 2", "2 of 2", "91", "92", "100", "0.50", ""]]
 
 
+def test_what_became_of_a_robot_follows_its_slide(tmp_path):
+    """A part of the sweep has the even cells, the other the odd ones."""
+    folder = tmp_path / "robot"
+    (folder / "logs").mkdir(parents=True)
+    for part, names in enumerate((["slides by both ends", "", "only grows"], ["only grows"])):
+        rows = "".join(f"{2 * k + part},{name}\n" for k, name in enumerate(names))
+        (folder / f"table.{part + 1}-of-2.csv").write_text("cell,slide\n" + rows)
+    for k, off in enumerate((True, True, False, False)):
+        (folder / f"logs/{k}.json").write_text(json.dumps(dict.fromkeys(
+            ("weight", "drag", "mass", "capacity", "stiffness", "way", "share", "torque", "penetration"), 1.0) | {"off": off}))
+    world.robot(tmp_path)
+    assert [row[5] for row in read(tmp_path, "world_robot")[1:]] == [
+        "it ties; the knot slides by both ends, and comes off", "it ties; the knot only grows, and comes off", "it never ties", "it ties, and loses the knot"]
+
+
 class Swept:
-    def __init__(self, off, torque):
-        self.off, self.torque = off, {"form": torque}
+    def __init__(self, off, slid, share, torque):
+        self.off, self.slid, self.share, self.torque = off, slid, share, {"form": torque}
 
 
 def test_sweeps_of_living_animals():
     sweeps = {what: {"3_1": [], "4_1": []} for what in living.SWEEPS}
-    sweeps["drag"] = {"3_1": [(1.0, Swept(True, 2e5))], "4_1": [(1.0, Swept(False, 1e5))]}
-    assert living.sweep_rows(sweeps) == [["drag, times that of the scenes: 1", "1 of 2", "2e+05 to 2e+05"]]
+    sweeps["drag"] = {"3_1": [(1.0, Swept(True, True, 93, 2e5))], "4_1": [(1.0, Swept(True, False, 36, 1e5)), (1.0, Swept(False, False, 5, 1e5))]}
+    assert living.sweep_rows(sweeps) == [["drag, times that of the scenes: 1", "1 of 3", "36", "2e+05 to 2e+05"]]
 
 
 def test_ratios_of_steps():

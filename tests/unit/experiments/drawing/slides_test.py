@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import accuracy
+import audits
 import choices
 import means
 import reverse
@@ -112,13 +113,15 @@ def test_a_slide_at_its_cap_that_ends_in_failure(content, sweep):
     assert (slide.capped, slide.met, slide.failure) == (0.5, 0.5, "tunnelled")
 
 
-def test_pages_of_slides_have_their_tables(content, sweep, tmp_path):
+def test_pages_of_slides_have_their_tables(content, sweep, tmp_path, monkeypatch):
     content.attributes["scene"] = content.attributes["scene"].replace("[expect]", "[controller.reverse_head]\na = 3.0\n[expect]")
     sweep()
     speeds.main(tmp_path)
     (row,) = read_table(tmp_path / "tables/speeds.csv").rows
     assert row == ["3_1", "2", "5", "only grows", "200", "200", "100.0", "0", "0", "0", "complete"]
     assert not speeds.good(dict(zip(speeds.HEAD, row))) and speeds.good(dict(zip(speeds.HEAD, row)) | {speeds.SLIDE: speeds.BOTH_ENDS})
+    shares = [audits.Finding(f"{way} of both ends", value, "70", "%", True) for way, value in (("slide", "93.1"), ("reverse", "42.1"))]
+    monkeypatch.setattr(audits, "audit", lambda path: shares)
     reverse.main(tmp_path)  # of a run that never turned
     (row,) = read_table(tmp_path / "tables/reverse.csv").rows
-    assert (*row[:3], row[-1]) == ("3_1", "3", "nan", "untied at the tail")
+    assert (*row[:3], row[5], row[-1]) == ("3_1", "3", "nan", "42", "untied at the tail")
