@@ -25,6 +25,7 @@ import knots
 import leverage
 import living
 import reflex
+import reflex_limits
 import reflex_runs
 import sliding_map
 import slit
@@ -142,6 +143,18 @@ def test_stability_by_scene_and_start(tmp_path):
     stability.write_tables(cells, tmp_path)
     assert read(tmp_path, "stability")[1][:2] == ["fast undamped whip", "1 (limits)"]
     assert read(tmp_path, "stability_starts")[1] == ["1", "2 of 2", ""]
+
+
+def test_the_reflex_has_its_limit_where_one_end_stays_or_time_is_up(monkeypatch):
+    class Log(dict):
+        path, scene = Path(), lambda self: {"time": {"duration": 40.0}}
+
+    monkeypatch.setattr(reflex_limits.audits, "audit", lambda path: [audits.Finding(name, "", "", "", met) for name, met in met_of.items()])
+    ends = lambda time: reflex_limits.slides(Log({"/trajectory/time": [0.0, time]}))
+    met_of = {"slide of both ends": True, "penetration": False}
+    assert ends(5.0) and not ends(40.0) and not reflex_limits.slides(None)
+    met_of["slide of both ends"] = False
+    assert not ends(5.0)
 
 
 def test_knots_are_counted_that_tie_hold_and_come_off():
