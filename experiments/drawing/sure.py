@@ -30,7 +30,7 @@ HEADING = ["figure", "unit", "as_it_is", "cause", "least", "most", "furthest_per
 
 @dataclass
 class Spread:
-    """A figure over the runs of a cause that came to their end with the scene's knot; nan where none has it."""
+    """A figure over the runs of a cause that count; nan where none has it."""
 
     cause: str
     least: float
@@ -53,8 +53,10 @@ class Sure:
 
     @property
     def counted(self) -> np.ndarray:
-        texts = self.table.texts
-        return np.array([outcome == "ok" and knot == texts["knot"][0] for outcome, knot in zip(texts["outcome"], texts["knot"])])
+        """Runs that came to their end with the scene's knot, and slid it by both ends if the scene as it is does."""
+        texts, slides = self.table.texts, self.table.both_ends
+        same = [outcome == "ok" and knot == texts["knot"][0] for outcome, knot in zip(texts["outcome"], texts["knot"])]
+        return np.array(same) & (slides | ~slides[0])
 
     def figures(self) -> Iterator[tuple[str, np.ndarray]]:
         """Those that the scene as it is has."""
@@ -81,8 +83,9 @@ class Sure:
     def lost(self) -> list[str]:
         """What became of runs that do not count, and of how many of each cause."""
         texts = self.table.texts
-        why = Counter((cause, f"tied {knot or 'no knot'}" if outcome == "ok" else outcome) for cause, outcome, knot, counts
-                      in zip(self.causes, texts["outcome"], texts["knot"], self.counted) if not counts)
+        ended = lambda knot, slide: (slide or "does not slide") if knot == texts["knot"][0] else f"tied {knot or 'no knot'}"
+        why = Counter((cause, ended(knot, slide) if outcome == "ok" else outcome) for cause, outcome, knot, slide, counts
+                      in zip(self.causes, texts["outcome"], texts["knot"], texts["slide"], self.counted) if not counts)
         return [f"{cause}: {count} of {self.causes.count(cause)}: {words}" for (cause, words), count in why.items()]
 
 
@@ -121,7 +124,7 @@ def words(sure: Sure) -> list[str]:
     counted = int(sure.counted.sum())
     return [*lines, "", "Columns in % say how far from the scene as it is a cause takes a figure. Numerics are chance, step and bodies.",
             "Each change is a single run, so an end of an interval may be its chance.",
-            f"{counted} of {len(sure.causes)} runs end with the scene's knot and count."
+            f"{counted} of {len(sure.causes)} runs count: they end with the scene's knot, slid by both ends if the scene's is."
             + ("" if counted == len(sure.causes) else " Others: " + "; ".join(sure.lost()) + ".")]
 
 

@@ -79,14 +79,16 @@ Eigen::Index LoggedSlide::frames_in(double interval) const {
 /// What is seen of the body after a step.
 struct Seen {
   double head_end = NAN;    ///< of the knot, cm of arc; nan without contact
+  double tail_end = NAN;    ///< likewise
   double penetration = 0;   ///< of the spline skin, as the core measures it, cm
   Eigen::Matrix3Xd centre;  ///< cm
 };
 
 Seen look(const Model& model, const Scene& scene, const State& state) {
   const Observation observation = observe(model, state, scene);
-  return {observation.ends.first ? observation.ends.head_end : NAN, observation.penetration,
-          observation.kin.centre};
+  const bool touches = observation.ends.first.has_value();
+  return {touches ? observation.ends.head_end : NAN, touches ? observation.ends.tail_end : NAN,
+          observation.penetration, observation.kin.centre};
 }
 
 /// MuJoCo with its own contacts and limits (but for cones, which it has not), its head clamped,
@@ -134,7 +136,7 @@ class Player {
 /// One playback of the whole slide, a row for each frame but the first; nan from where MuJoCo blew
 /// up to the restart.
 struct Playback {
-  Eigen::VectorXd head_end, drift, penetration, capsule_penetration;
+  Eigen::VectorXd head_end, tail_end, drift, penetration, capsule_penetration;
   Eigen::VectorXd determinant;
   double slid = 0, log_slid = 0;  ///< headward, over the stretches between restarts, cm
   int samples = 0, kept = 0;      ///< at the knot type
@@ -147,8 +149,9 @@ Playback play(const LogContents& log, const LoggedSlide& slide, const std::vecto
   const Eigen::Index stretch = slide.frames_in(interval);
   Player player(log, slide);
   Playback result;
-  for (Eigen::VectorXd* series : {&result.head_end, &result.drift, &result.penetration,
-                                  &result.capsule_penetration, &result.determinant}) {
+  for (Eigen::VectorXd* series :
+       {&result.head_end, &result.tail_end, &result.drift, &result.penetration,
+        &result.capsule_penetration, &result.determinant}) {
     series->setConstant(slide.gaps(), NAN);
   }
   bool stable = true;
@@ -167,6 +170,7 @@ Playback play(const LogContents& log, const LoggedSlide& slide, const std::vecto
     }
     const Seen seen = look(log.model, scene, player.state());
     result.head_end[i] = seen.head_end;
+    result.tail_end[i] = seen.tail_end;
     result.penetration[i] = seen.penetration;
     result.capsule_penetration[i] = player.capsule_penetration();
     result.drift[i] = (seen.centre - logged[i + 1].centre).colwise().norm().maxCoeff();
@@ -192,7 +196,9 @@ double largest(const Eigen::VectorXd& values) {
 void write(const Playback& p, const std::string& group, Hdf5Writer& h5) {
   h5.group(group);
   h5.numbers(group + "/head_end", p.head_end,
-             {"cm", "arc length of the first touching contact in MuJoCo"});
+             {"cm", "arc length of the knot's head end in MuJoCo"});
+  h5.numbers(group + "/tail_end", p.tail_end,
+             {"cm", "arc length of the knot's tail end in MuJoCo"});
   h5.numbers(group + "/drift", p.drift, {"cm", "largest distance of a body's centre to the log"});
   h5.numbers(group + "/penetration", p.penetration,
              {"cm", "deepest overlap of the skin along the spline"});
@@ -217,13 +223,15 @@ void playback(const LogContents& log, Hdf5Writer& h5) {
     logged.push_back(look(log.model, log.resolved.scene, slide.state(i)));
   }
   for (const double interval : intervals) slide.frames_in(interval);  // before any work
-  Eigen::VectorXd time(slide.gaps() + 1), head_end(slide.gaps() + 1);
+  Eigen::VectorXd time(slide.gaps() + 1), head_end(slide.gaps() + 1), tail_end(slide.gaps() + 1);
   for (Eigen::Index i = 0; i <= slide.gaps(); ++i) {
     time[i] = slide.time[i];
     head_end[i] = logged[i].head_end;
+    tail_end[i] = logged[i].tail_end;
   }
   h5.numbers("/time", time, {"s", "frames of the sliding phase; what MuJoCo did has no first"});
   h5.numbers("/head_end", head_end, {"cm", "arc length of the knot's head end in the log"});
+  h5.numbers("/tail_end", tail_end, {"cm", "arc length of the knot's tail end in the log"});
   if (!log.model.cones.empty()) {
     fmt::print("without bending limits: MuJoCo has none on the total angle of a joint\n");
   }

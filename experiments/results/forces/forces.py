@@ -13,7 +13,7 @@ import tables
 from accuracy import STATIONS, moments_of, off, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
-from sweep_columns import read_cells
+from sweep_columns import BOTH_ENDS, read_cells
 
 PLACES = 200  # of the knot's head end, at which moments are compared
 USUAL = "2 ms"
@@ -39,13 +39,14 @@ class Slide:
     work: float  # of f_thigmo for each cm of way
     force: np.ndarray  # moments of f_thigmo, means from frame to frame: frames x (3 axes times stations), dyn cm
     place: np.ndarray  # of the knot's head end at these frames, the least so far
+    both_ends: bool = True  # whether it is a slide of both ends
 
 
-def slide_of(log: HagfishLog, way: float) -> Slide:
+def slide_of(log: HagfishLog, way: float, both_ends: bool) -> Slide:
     means = log.intervals_in("slide")
     work = log["/diagnostics/work_thigmotaxis"][log.in_phase("slide")]
     return Slide(way, float(log["/mean/thigmotaxis/sum"][means].mean()), float(work[-1] - work[0]) / way, moments_of(log, "thigmotaxis", means),
-                 np.minimum.accumulate(log["/knot/head_end"][means]))
+                 np.minimum.accumulate(log["/knot/head_end"][means]), both_ends)
 
 
 def read_slides(folder: Path) -> dict[tuple[str, str, str], Slide]:
@@ -57,8 +58,14 @@ def read_slides(folder: Path) -> dict[tuple[str, str, str], Slide]:
             raise LogError(f"{cell.path}, {scene}: {cell.outcome}")
         knot = plots.knot_of(scene)
         found[cell.axes["title"].strip('"'), "living" if "living" in scene else "towed", knot] = slide_of(
-            cell.log, cell.figures["slide_distance_cm"])
+            cell.log, cell.figures["slide_distance_cm"], cell.texts["slide"] == BOTH_ENDS)
     return found
+
+
+def named(slides: dict[tuple[str, str, str], Slide], pairs: list[tuple[str, str]], animals: str) -> str:
+    """The animals, and which knots fall short of a slide by both ends in a run of theirs."""
+    grown = [knot for knot in plots.KNOTS if not all(slides[run, animals, knot].both_ends for pair in pairs for run in pair)]
+    return f"{animals} ({', '.join(grown)}: not by both ends)" if grown else animals
 
 
 def at_places(slide: Slide, places: np.ndarray) -> np.ndarray:
@@ -128,8 +135,8 @@ def main(folder: Path) -> None:
             each = [[differences(slides[run, animals, knot], slides[other, animals, knot]) for run, other in pairs] for knot in plots.KNOTS]
             worst = {name: [max(found[name] for found in of) for of in each] for name in each[0][0]}
             ends = lambda name: [tables.shown(np.median(worst[name]), ".1f"), tables.shown(max(worst[name]), ".1f")]
-            sums.append([change, animals, *(cell for name in SUMS for cell in ends(name))])
-            spread.append([change, animals, *(tables.shown(value, ".1f") for value in worst["mean"]), ends("mean")[0], *ends("time"),
+            sums.append([change, named(slides, pairs, animals), *(cell for name in SUMS for cell in ends(name))])
+            spread.append([change, sums[-1][1], *(tables.shown(value, ".1f") for value in worst["mean"]), ends("mean")[0], *ends("time"),
                            *ends("place")])
     both = lambda names: [f"{name}, {end}" for name in names for end in ("median", "at most")]
     tables.write_table(folder, "forces", ["change", "animals", *both(SUMS)], sums)

@@ -102,7 +102,7 @@ def outcome(cell: Cell) -> str:
 
 
 def sure(cells: list[Cell]) -> str:
-    """Of noisy starts, how many were tied, held, slid and came off."""
+    """Of noisy starts, how many were tied, held and came off."""
     missed = [set(cell.unmet) for cell in cells if cell.outcome == "ok"]
     good, clean = (sum(not each & names for each in missed) for names in (KEPT, KEPT | {"penetration"}))
     return f"{good} of {len(cells)}" + (f" ({clean} within the penetration)" if clean != good else "")
@@ -132,7 +132,7 @@ def force_by_chance(folder: Path, out: Path) -> None:
     rows = []
     for name, key in ((f"sum of the four λ/h: median of the {MEAN}s, dyn", "median"), ("mean over the slide, dyn", "mean"),
                       (f"largest {MEAN}, dyn", "peak_multipliers"), ("effort for each cm of slide, dyn s", "effort"),
-                      ("slide, s", "seconds"), ("slide, cm", "travel")):
+                      ("slide, s", "seconds"), ("head end of the knot, cm", "travel")):
         form = ".2f" if key in ("seconds", "travel") else ".0f"
         for i, step in enumerate(next(iter(runs.values()))):
             rows.append([f"{name}, at h = {1000 * float(step):g} ms", *(
@@ -163,7 +163,7 @@ def write_tables(folder: Path, plain: dict[str, Cell], mirrored: dict[str, Cell]
     for step in next(iter(steps.values())):
         row(f"audit at h = {1000 * float(step):g} ms", lambda k, step=step: outcome(steps[k][step][0]))
     figures = {k: force_figures(logs[k], read_means(logs[k])) for k in logs}
-    for name, key, form in (("slide, s", "seconds", ".2f"), ("slide, cm", "travel", ".2f"),
+    for name, key, form in (("slide, s", "seconds", ".2f"), ("head end of the knot, cm", "travel", ".2f"),
                             (f"sum of the four λ/h: median of the {MEAN}s, dyn", "median", ".0f"), ("mean over the slide, dyn", "mean", ".0f"),
                             (f"largest {MEAN}, dyn", "peak_multipliers", ".0f"),
                             (f"f_thigmo of a hinge: largest {MEAN}, dyn cm", "peak", ".0f"),

@@ -19,7 +19,7 @@ LOOKS = [plots.Look("", plots.BLUE, "o"), plots.Look("", plots.ORANGE, "s"), plo
 ARRIVED = "release_from_s"
 TABLE_1 = 424.0  # dyn cm^2: data/table1.toml
 HAGFISH = (3e4, 1.2e6)  # dyn cm^2, made of Long et al. 2002: data/specimens/pacific_hagfish.toml
-POINTS = ["stiffness_dyn_cm2", "speed_cm_per_s", "starts", "tied", "arrived", "passed",
+POINTS = ["stiffness_dyn_cm2", "speed_cm_per_s", "starts", "tied", "at_head_by_both_ends", "passed",
           *(f"{what}_{part}" for what in ("force_dyn", "work_erg_per_cm") for part in ("lower", "median", "upper"))]
 
 

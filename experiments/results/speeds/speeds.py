@@ -12,7 +12,7 @@ from script import run_script
 from slides import MEAN, read_slides
 from sweep_columns import BOTH_ENDS
 
-HEAD = ["knot", "commanded, cm/s", "measured, cm/s", "its slide", f"force, median {MEAN}, dyn", f"largest {MEAN}, dyn", "steps that meet Eq. 6, %",
+HEAD = ["knot", "commanded, cm/s", "head end, cm/s", "its slide", f"force, median {MEAN}, dyn", f"largest {MEAN}, dyn", "steps that meet Eq. 6, %",
         f"slack, median {MEAN}, cm/s", "rows at the cap, %", "penetration, cm", "run"]
 COMMANDED, MEASURED, SLIDE, FORCE, MET, DEEP, RUN = (HEAD[k] for k in (1, 2, 3, 4, 6, 9, 10))
 

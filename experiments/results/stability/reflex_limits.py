@@ -1,5 +1,5 @@
 """How far the reflex goes in each simulator and by each rule: from one tied knot the step, the shift, the delay of the senses and the
-stiffness grow until the knot does not come to the head any more.
+stiffness grow until the knot does not slide to the head by both ends any more.
 
 Usage: reflex_limits.py HAGFISH OUT_FOLDER. Its folder reflex keeps the tied knot and one run at a time.
 """
@@ -8,12 +8,14 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+import audits
 import tables
 import tied_knot
 from hagfish_log import HagfishLog, LogError
 from script import run_script
 
 USUAL = 0.005  # s, the step where others grow
+INTERVAL = 0.02  # s, between frames, or a longer step: a slide of a few frames is not judged
 METHODS = {"Euler": ("run", "--set", "time.rule=euler"), "midpoint": ("run", "--set", "time.rule=midpoint"),
            "MuJoCo Euler": ("mujoco-run", "--integrator", "euler"), "MuJoCo implicit": ("mujoco-run", "--integrator", "implicit"),
            "MuJoCo RK4": ("mujoco-run", "--integrator", "rk4")}
@@ -35,6 +37,7 @@ def run(hagfish: Path, command: tuple[str, ...], scene: str, log: Path, settings
     kind, *options = command
     step = next((setting.split("=")[1] for setting in settings if setting.startswith("time.step=")), f"{USUAL:g}")
     own = ["--step", step] if kind == "mujoco-run" else ["--set", f"time.step={step}"]
+    own += ["--set", f"time.frame_interval={max(INTERVAL, float(step))}"]
     sets = [word for setting in settings if not setting.startswith("time.step=") for word in ("--set", setting)]
     done = subprocess.run([str(hagfish), kind, scene, *options, *own, *sets, "--out", str(log), "--force", "--quiet"], capture_output=True,
                           text=True, check=False)
@@ -43,9 +46,10 @@ def run(hagfish: Path, command: tuple[str, ...], scene: str, log: Path, settings
     return HagfishLog(log) if done.returncode == 0 else None
 
 
-def comes_to_the_head(log: HagfishLog | None) -> bool:
-    """The slide, at whose end the run ends, was over before the scene's time was: the knot was neither lost nor stuck."""
-    return log is not None and log["/trajectory/time"][-1] < log.scene()["time"]["duration"] - 0.5
+def slides(log: HagfishLog | None) -> bool:
+    """The slide, at whose end the run ends, was one of both ends, and over before the scene's time was: the knot was neither lost nor stuck."""
+    came = log is not None and log["/trajectory/time"][-1] < log.scene()["time"]["duration"] - 0.5
+    return came and "slide of both ends" not in audits.unmet(audits.audit(log.path))
 
 
 def last(values: list[float], holds: Callable[[float], bool]) -> str:
@@ -69,7 +73,7 @@ def main(hagfish: Path, out: Path) -> None:
         for name, command in METHODS.items():
             attempt = lambda value, more=(): run(hagfish, command, str(scene), folder / "run.h5", [*settings(value), *more])
             if name != EXPLICIT:
-                cells.append(last(values, lambda value: comes_to_the_head(attempt(value))))
+                cells.append(last(values, lambda value: slides(attempt(value))))
             elif what.startswith("step"):
                 cells.append(last(SHORT, lambda value: attempt(value, (f"time.duration={BRIEFLY}",)) is not None))
             else:

@@ -13,7 +13,7 @@ import tables
 from script import run_script
 
 SCENES = ["table1", *(f"{kind}_{knot}" for kind in ("living", "reflex") for knot in plots.SCENES)]
-SHOWN = {"slide_distance_cm": "slide, cm", "sliding_force_dyn": "sliding force, dyn",
+SHOWN = {"slide_distance_cm": "head end of the knot, cm", "sliding_force_dyn": "sliding force, dyn",
          "largest_thigmotaxis_dyn_cm": "largest f_thigmo, dyn cm",
          "largest_active_dyn_cm": "largest torque of muscles, dyn cm", "work_active_erg": "work of muscles, erg",
          "work_thigmotaxis_erg": "work of f_thigmo, erg"}

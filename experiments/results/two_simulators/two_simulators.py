@@ -28,13 +28,13 @@ def compared(results: Results) -> list[list[str]]:
     return [*rows, ["q̇ along a run by the same rule", *(f"{value:.0e}" for value in (bound, *largest))]]
 
 
-def shares(results: Results, force: str) -> list[str]:
-    """Of the log's headward slide, by interval between restarts, %. Row k of a run is frame k + 1 of the log, so that each stretch
-    starts from the log's frame."""
-    time, logged, found = results["/time"], results["/head_end"], []
+def shares(results: Results, end: str, force: str) -> list[str]:
+    """Of the way of an end of the knot in the log, by interval between restarts, %. Row k of a run is frame k + 1 of the log, so that each
+    stretch starts from the log's frame."""
+    time, logged, found = results["/time"], results[f"/{end}_end"], []
     for interval in INTERVALS:
         count, rows = round(float(interval) / (time[1] - time[0])), len(time) - 1
-        path = results[f"/{force}_{interval}s/head_end"]
+        path = results[f"/{force}_{interval}s/{end}_end"]
         ends = [(logged[k], path[min(k + count, rows) - 1], logged[min(k + count, rows)]) for k in range(0, rows, count)]
         found.append(100 * sum(a - b for a, b, _ in ends) / sum(a - c for a, _, c in ends))
     return [f"{share:.0f}" for share in found]
@@ -42,8 +42,10 @@ def shares(results: Results, force: str) -> list[str]:
 
 def played_back(results: Results) -> list[list[str]]:
     largest = lambda what: [f"{np.nanmax(results[f'/thigmotaxis_{interval}s/{what}']):.2g}" for interval in INTERVALS]
-    return [["headward slide, of the log's, %", *shares(results, "thigmotaxis")],
-            ["the same without f_thigmo, %", *shares(results, "none")],
+    return [["headward slide of the knot's head end, of the log's, %", *shares(results, "head", "thigmotaxis")],
+            ["its tail end's, %", *shares(results, "tail", "thigmotaxis")],
+            ["head end's without f_thigmo, %", *shares(results, "head", "none")],
+            ["tail end's, by no f_thigmo either, %", *shares(results, "tail", "none")],
             ["farthest body centre from the log, cm", *largest("drift")],
             ["deepest overlap of the capsules, cm", *largest("capsule_penetration")]]
 

@@ -26,6 +26,7 @@ import knots
 import leverage
 import living
 import reflex
+import reflex_limits
 import reflex_runs
 import sliding_map
 import slit
@@ -144,6 +145,18 @@ def test_stability_by_scene_and_start(tmp_path):
     stability.write_tables(cells, tmp_path)
     assert read(tmp_path, "stability")[1][:2] == ["fast undamped whip", "1 (limits)"]
     assert read(tmp_path, "stability_starts")[1] == ["1", "2 of 2", ""]
+
+
+def test_the_reflex_has_its_limit_where_one_end_stays_or_time_is_up(monkeypatch):
+    class Log(dict):
+        path, scene = Path(), lambda self: {"time": {"duration": 40.0}}
+
+    monkeypatch.setattr(reflex_limits.audits, "audit", lambda path: [audits.Finding(name, "", "", "", met) for name, met in met_of.items()])
+    ends = lambda time: reflex_limits.slides(Log({"/trajectory/time": [0.0, time]}))
+    met_of = {"slide of both ends": True, "penetration": False}
+    assert ends(5.0) and not ends(40.0) and not reflex_limits.slides(None)
+    met_of["slide of both ends"] = False
+    assert not ends(5.0)
 
 
 def test_knots_are_counted_that_tie_hold_and_come_off():
@@ -276,7 +289,7 @@ def test_a_motion_is_off_by_what_it_is_moved():
 
 
 def test_one_animal_in_two_simulators(tmp_path):
-    """MuJoCo comes half as far as the log between restarts, and a quarter as far without f_thigmo."""
+    """MuJoCo's head end comes half as far as the log's between restarts, and a quarter as far without f_thigmo; its tail ends half as far as these."""
     time = np.linspace(0, 2, 51)
     with h5py.File(tmp_path / "compare.h5", "w") as file:
         for head in two_simulators.HEADS:
@@ -284,14 +297,15 @@ def test_one_animal_in_two_simulators(tmp_path):
                 file[f"states/{head}/{name}"], file[f"states/{head}/{name}_bound"] = [1e-14, 3e-14], [1e-11]
             file[f"rollout/{head}/velocity"], file[f"rollout/{head}/velocity_bound"] = [1e-13, 2e-13], [1e-10]
     with h5py.File(tmp_path / "playback.h5", "w") as file:
-        file["time"], file["head_end"] = time, 9 - time
+        file["time"], file["head_end"], file["tail_end"] = time, 9 - time, 30 - 2 * time
         for interval in two_simulators.INTERVALS:
             since = np.arange(50) % round(float(interval) / 0.04) + 1
             for force, share in (("thigmotaxis", 0.5), ("none", 0.25)):
                 file[f"{force}_{interval}s/head_end"] = 9 - time[1:] + (1 - share) * 0.04 * since
+                file[f"{force}_{interval}s/tail_end"] = 30 - 2 * time[1:] + (2 - share) * 0.04 * since
             for what in ("drift", "capsule_penetration"):
                 file[f"thigmotaxis_{interval}s/{what}"] = 0.01 * since
     two_simulators.main(tmp_path / "compare.h5", tmp_path / "playback.h5", tmp_path)
     assert read(tmp_path, "two_simulators")[1::5] == [["positions", "1e-11", "3e-14", "3e-14"], ["q̇ along a run by the same rule", "1e-10", "2e-13", "2e-13"]]
-    shares = [set(row[1:]) for row in read(tmp_path, "two_simulators_playback")[1:3]]
-    assert shares == [{"50"}, {"25"}]
+    shares = [set(row[1:]) for row in read(tmp_path, "two_simulators_playback")[1:5]]
+    assert shares == [{"50"}, {"25"}, {"25"}, {"12"}]

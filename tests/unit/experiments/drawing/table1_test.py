@@ -7,7 +7,7 @@ import table1
 import tables
 from hagfish_log import LogError
 
-VALUES = {"knot held": "349", "slide": "9.1849", "Eq. 6": "96.43", "penetration": "0.00020153", "head drift": "0",
+VALUES = {"knot held": "349", "slide": "9.1849", "slide of both ends": "106", "Eq. 6": "96.43", "penetration": "0.00020153", "head drift": "0",
           "f_thigmo past the knot": "0"}  # the rest is rounding
 
 
@@ -29,7 +29,7 @@ def test_what_chance_and_rounding_leave_open(files, changes):
     table1.main(*files(**changes))
 
 
-@pytest.mark.parametrize("changes", [{"slide": "8.9"}, {"force balance": "5e-14"}, {"head drift": "1e-9"}, {"penetration": ""}, {"penetration": "0.0006"}])
+@pytest.mark.parametrize("changes", [{"slide": "8.9"}, {"slide of both ends": "69"}, {"force balance": "5e-14"}, {"head drift": "1e-9"}, {"penetration": ""}, {"penetration": "0.0006"}])
 def test_what_has_aged_is_named(files, capsys, changes):
     with pytest.raises(SystemExit) as stopped:
         table1.main(*files(**changes))

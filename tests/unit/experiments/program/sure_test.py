@@ -71,10 +71,13 @@ def test_what_it_says_and_leaves_is_the_spread_of_the_runs(folder):
 
 def test_runs_that_end_otherwise_do_not_count():
     number = lambda *values: {name: np.array(values, float) for name in sweep_columns.FIGURES}
-    texts = {"outcome": ["ok", "ok", "never tied", "ok"], "unmet": [""] * 4, "message": [""] * 4, "knot": ["3_1", "3_1", "", "0_1"]}
-    made = sweep_columns.SweepTable({}, texts, number(10, 12, 50, 90))
-    found = sure.Sure(made, ["as it is", "step", "step", "bodies"])
+    both, grows = sweep_columns.BOTH_ENDS, "only grows"
+    texts = {"outcome": ["ok", "ok", "never tied", "ok", "ok"], "knot": ["3_1", "3_1", "", "0_1", "3_1"], "slide": [both, both, "", both, grows]}
+    made = sweep_columns.SweepTable({}, texts, number(10, 12, 50, 90, 70))
+    found = sure.Sure(made, ["as it is", "step", "step", "bodies", "bodies"])
     step, bodies, _, every = found.spreads(found.table.figures["slide_distance_cm"])
     assert (step.least, step.most, step.furthest, step.runs, step.of) == (10, 12, 20, 1, 2)
-    assert np.isnan(bodies.least) and (every.runs, every.of) == (1, 3)
-    assert found.lost() == ["step: 1 of 2: never tied", "bodies: 1 of 1: tied 0_1"]
+    assert np.isnan(bodies.least) and (every.runs, every.of) == (1, 4)
+    assert found.lost() == ["step: 1 of 2: never tied", "bodies: 1 of 2: tied 0_1", "bodies: 1 of 2: only grows"]
+    texts["slide"][0] = grows  # of a scene that slides no knot all do that end with it
+    assert list(found.counted) == [True, True, False, False, True]
