@@ -31,10 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// s, that the knot is pulled together in the soft body, so that the program ends with a knot that
-// holds. A stiff knot that is tightened more does not slide: it grows.
-constexpr double tightening = 0.25;
-
 constexpr int few_starts = 4;   // of each law, before the animals and the other starts
 constexpr int few_animals = 4;  // that must repeat what is to be gone on from
 
@@ -253,7 +249,7 @@ class Search {
 
   /// Of the path of a try that tied the knot.
   Shapes shapes_of(int number) const {
-    return tied_shapes(led_by(number).body, tied_paths_.at(number), options_.knot, tightening);
+    return tied_shapes(led_by(number).body, tied_paths_.at(number), options_.knot);
   }
 
   FoundScene found_from(int number, const Shapes& shapes, double slower) const {

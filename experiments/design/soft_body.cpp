@@ -155,9 +155,6 @@ Shapes shapes_in(const SoftBody& body, const Scene& scene, double until, Simulat
   std::vector<Eigen::VectorXd> q;
   StepRecord record;
   const auto keep = [&](const StepRecord& step, const Simulation&) {
-    if (shapes.tighten_from == 0 && step.controller.phase == Phase::tighten) {
-      shapes.tighten_from = step.time;
-    }
     shapes.time.push_back(step.time);
     q.push_back(step.after.state.q);
   };
@@ -181,17 +178,13 @@ Shapes led_shapes(const SoftBody& body, const TailPath& path, double until) {
   return shapes_in(body, scene, until, sim);
 }
 
-Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,
-                   double tightening) {
+Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted) {
   Scene scene = led_along(body, path, search_step);
   scene.expect.knot = *name_in_scene(wanted);
   scene.controller.tighten_from = path_end(path);
-  scene.controller.tight_span = 0;
-  scene.controller.tighten_time = tightening;
-  scene.time.until = Phase::tighten;
+  scene.time.until = Phase::form;
   Simulation sim = start(body.model, scene, sweep_qp);
   Shapes shapes = shapes_in(body, scene, std::numeric_limits<double>::infinity(), sim);
-  if (shapes.failure.empty() && shapes.tighten_from == 0) shapes.failure = "it was never tightened";
   if (shapes.failure.empty() && !is_knot(wanted, sim.now.observation.kin.centre, scene.knot)) {
     shapes.failure = "it is no longer a " + wanted;
   }

@@ -72,20 +72,19 @@ struct Tying {
 std::optional<Tying> try_plan(const SoftBody& body, const PathPlan& plan, const std::string& wanted,
                               Draw& draw, const std::function<bool()>& interrupted);
 
-/// Shapes of a body while it is knotted and pulled together.
+/// Shapes of a body while it is knotted.
 struct Shapes {
   std::vector<double> time;  ///< s, from 0
   Eigen::MatrixXd q;         ///< a row each
-  double tighten_from = 0;   ///< s; 0 where it was never tightened
   std::string failure;       ///< why there are no shapes up to the end, or empty
 };
 
 /// The path again, up to `until` (s).
 Shapes led_shapes(const SoftBody& body, const TailPath& path, double until);
 
-/// The path again, and the knot, which must be `wanted` (a name of knot_table.hpp, or
-/// invariants_text()), is then tightened for `tightening` (s).
-Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted,
-                   double tightening);
+/// The path again, up to a knot with enough tail behind it, which must be `wanted` (a name of
+/// knot_table.hpp, or invariants_text()). It is not tightened: a stiff body's knot that is grows
+/// instead of sliding.
+Shapes tied_shapes(const SoftBody& body, const TailPath& path, const std::string& wanted);
 
 }  // namespace hagfish

@@ -115,8 +115,8 @@ COLUMNS: dict[str, Callable[[Row], str]] = {  # of tables, by heading
     "found": of("found"), "CPU time, s": figure("cpu_s"), "clock, s": figure("wall_s"), "paths tried": of("tries"),
     "paths that tied it": of("tied_in_soft_body"), "starts, Eq. 6": lambda row: passed(row, "eq6"),
     "starts, reflex": lambda row: passed(row, "reflex"), "of ten, Eq. 6": of("unseen_by_eq6"), "of ten, reflex": of("unseen_by_reflex"),
-    "length, cm": figure("length_cm"), "times as slow": figure("slower"), "tightened from, s": figure("tighten_from_s"),
-    "way, cm": figure("slide_distance_cm", 2), "untied at, s": figure("free_from_s"),
+    "length, cm": figure("length_cm"), "times as slow": figure("slower"), "slides from, s": figure("tighten_from_s"),
+    "head end of the knot, cm": figure("slide_distance_cm", 2), "untied at, s": figure("free_from_s"),
     "largest torque of f_thigmo, dyn cm": figure("largest_thigmotaxis_dyn_cm", 2),
     "work of active torques, erg": figure("work_active_erg", 2), "body in the knot, cm": figure("body_in_knot_cm"),
     "in mean diameters": figure("body_in_knot_diameters"), "largest active torque, dyn cm": figure("largest_active_dyn_cm", 2),
@@ -158,7 +158,7 @@ def beside_table(rows: list[Row]) -> Cells:
         if knot in found:
             lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-",
                           number(found[knot]["largest_active_dyn_cm"], 2), number(found[knot]["slide_distance_cm"], 2)])
-    return ["knot", "program", "other animals that it serves, of ten", "largest torque, dyn cm", "way, cm"], lines
+    return ["knot", "program", "other animals that it serves, of ten", "largest torque, dyn cm", "head end of the knot, cm"], lines
 
 
 def share(rows: list[Row]) -> str:
@@ -193,7 +193,7 @@ def page_tables(every: list[Row]) -> dict[str, Cells]:
     return {"found": table(rows, [*SEARCH, *cost, "paths that tied it", "starts, Eq. 6", "starts, reflex"]),
             "gallery": table(one_of_each(rows), ["knot", "animal", "body in the knot, cm", "in mean diameters",
                                                  "largest active torque, dyn cm", "who is seen to tie it"]),
-            "needs": table(found, [*SEARCH, "times as slow", "tightened from, s", "way, cm", "untied at, s",
+            "needs": table(found, [*SEARCH, "times as slow", "slides from, s", "head end of the knot, cm", "untied at, s",
                                    "largest torque of f_thigmo, dyn cm", "work of active torques, erg", *AUDITS]),
             "unseen": table([row for row in found if row["unseen_by_eq6"]], [*SEARCH, "of ten, Eq. 6", "of ten, reflex"]),
             "beside": beside_table(rows),

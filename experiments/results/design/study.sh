@@ -32,7 +32,7 @@ unseen() {
     {
       echo 'scene = "scene.toml"'
       [[ $law == eq6 ]] ||
-        echo 'set = ["controller.law=reflex", "controller.reflex.shift=2.5e-4 L", "expect.speed_share=0.0"]'
+        echo 'set = ["controller.law=reflex", "controller.reflex.shift=2.5e-4 L"]'
       /usr/bin/python3 "$animals" 10 "${@:2}"
     } >"$folder/unseen_$law.toml"
     "$hagfish" sweep "$folder/unseen_$law.toml" --out "$folder/unseen_$law" --quiet
