@@ -187,10 +187,21 @@ def test_slides_are_counted_by_what_is_varied(tmp_path):
     sweep("steps", "model.bodies,time.step", [("living_overhand", "100,0.005", "ok", both, 75, 100, 1e5)])
     sweep("speeds", "controller.slide_head.a", [("living_overhand", 0.5, "ok", both, 85, 100, 3e5)])
     sweep("starts", "start.seed", [("living_overhand", seed, "ok", both, 90 + seed, 100, 1e5) for seed in (1, 2)])
-    assert thigmotaxis.run_rows(tmp_path, 2e5) == [
+    assert thigmotaxis.change_rows(tmp_path, 2e5) == [
         ["bodies: 60", "1 of 2", "10", "50", "98", "1.00", "4_1 free 10 %"], ["bodies: 100", "0 of 1", "80", "80", "97", "0.50", "3_1 held 80 %"],
         ["time step, s: 0.005, 100 bodies", "1 of 1", "75", "75", "100", "0.50", ""], ["commanded speed, cm/s: 0.5", "1 of 1", "85", "85", "100", "1.50", ""],
         ["start with noise, numbers 1 to 2", "2 of 2", "91", "92", "100", "0.50", ""]]
+    tightened = "controller.law,controller.tighten_time"
+    sweep("laws", "controller.law,controller.eq6_at", [("living_overhand", "all_contacts,centreline", "ok", both, 90, 100, 1e5),
+                                                       ("living_overhand", "paper,skin", "ok", grows, 0, 100, 1e5)])
+    sweep("tightened", tightened, [("living_overhand", f"paper,{time}", "ok", grows, 20 - time, 100, 1e5) for time in (0.5, 2)])
+    sweep("reflex", "controller.reflex.shift", [("reflex_overhand", 0.1, "ok", both, 80, 0, 1e5)])
+    runs = thigmotaxis.runs_by_law(tmp_path)
+    assert {key: thigmotaxis.counted(of, 2e5)[:4] for key, of in runs.items()} == {
+        "two contacts; 0.5": ["0 of 1", "20", "20", "100"], "two contacts; 2": ["0 of 1", "18", "18", "100"],
+        "two contacts, at the skin; 0": ["0 of 1", "0", "0", "100"], "all contacts; 0": ["1 of 1", "90", "90", "100"], "reflex; 0": ["1 of 1", "80", "80", ""]}
+    assert list(thigmotaxis.compared(runs)) == ["two contacts, tightened", "two contacts, at the skin", "all contacts", "reflex"]
+    assert thigmotaxis.compared(runs)["two contacts, tightened"] == runs["two contacts; 2"]
 
 
 def test_what_became_of_a_robot_follows_its_slide(tmp_path):
