@@ -283,7 +283,7 @@ int main(int argc, char** argv) {
       add_core_step("step_midpoint",
                     std::make_shared<Start>(knotted_start(argv[k], TimeRule::midpoint)),
                     "active-set", restarts.front());
-      add_core_step("step_free", free, box_qp_solver_names().front(), restarts.front());
+      add_core_step("step_free", free, "active-set", restarts.front());
       add_mujoco_step("step_free", free, mirror_of(*free), 0, restarts.front());
     }
   } catch (const std::exception& error) {

@@ -153,7 +153,7 @@ def beside_table(rows: list[Row]) -> Cells:
     found = {row["knot_wanted"]: row for row in one_of_each([row for row in rows if not row["animal"]])}
     lines = []
     for knot in living.head[1:]:
-        lines.append([knot, "of data/", stated("of 10 other animals", knot).split(";")[0], larger(stated("largest torque of a hinge", knot)),
+        lines.append([knot, "of data/", stated("of 10 other animals", knot).split(";")[1].strip(), larger(stated("largest torque of a hinge", knot)),
                       stated("clamped: way", knot).split(";")[0]])
         if knot in found:
             lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-",

@@ -46,9 +46,10 @@ def runs_by_law(folder: Path) -> dict[str, list[Cell]]:
 
 
 def compared(runs: dict[str, list[Cell]]) -> dict[str, list[Cell]]:
-    """Of laws without tightening, and of LIKE_PAPER."""
+    """Of laws at the spline without tightening, and of LIKE_PAPER."""
     longest = max((key for key in runs if key.startswith("two contacts; ")), key=lambda key: float(key.split("; ")[1]))
-    return {LIKE_PAPER: runs[longest]} | {key.removesuffix("; 0"): of for key, of in runs.items() if key.endswith("; 0")}
+    return {LIKE_PAPER: runs[longest]} | {key.removesuffix("; 0"): of for key, of in runs.items()
+                                         if key.endswith("; 0") and "skin" not in key}
 
 
 def work_per_cm(log: HagfishLog, way: float) -> tuple[float, float]:
@@ -94,6 +95,15 @@ def counted(cells: list[Cell], most: float) -> list[str]:
               for cell, share, well in zip(cells, shares, slid) if not well]
     return [f"{sum(slid)} of {len(slid)}", f"{np.nanmin(shares):.0f}", f"{np.nanmedian(shares):.0f}", f"{np.nanmin(met):.0f}" if met.any() else "",
             f"{np.nanmax(figure('largest_torque_dyn_cm')) / most:.2f}", "; ".join(failed)]
+
+
+def law_rows(runs: dict[str, list[Cell]], most: float) -> list[list[str]]:
+    rows = []
+    for key, of in runs.items():
+        law, time = key.split("; ")
+        at = "" if law == REFLEX else "skin" if "skin" in law else "spline"
+        rows.append([law.removesuffix(", at the skin"), at, "no" if time == "0" else f"{time} s", *counted(of, most)])
+    return rows
 
 
 def change_rows(folder: Path, most: float) -> list[list[str]]:
@@ -142,8 +152,7 @@ def main(folder: Path) -> None:
     runs = runs_by_law(folder)
     by_law = compared(runs)
     most = capacity(by_law[LIKE_PAPER][0].log)  # one animal
-    tables.write_table(folder, "thigmotaxis_laws", ["Eq. 6 at", "tightened first, s", *COUNTED],
-                       [[*key.split("; "), *counted(of, most)] for key, of in runs.items()])
+    tables.write_table(folder, "thigmotaxis_laws", ["Eq. 6 at", "seen at", "tightened first", *COUNTED], law_rows(runs, most))
     tables.write_table(folder, "thigmotaxis", ["knot", "head", "Eq. 6 at", "head end of the knot, cm", "its tail end, of what taper asks, cm",
                                                "curvature travels, cm (correlation)", "the knot", "steps that meet Eq. 6, %", "largest torque, of capacity",
                                                "work, erg/cm", "of it f_thigmo"], knot_rows(by_law))

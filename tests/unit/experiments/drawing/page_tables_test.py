@@ -197,10 +197,11 @@ def test_slides_are_counted_by_what_is_varied(tmp_path):
     sweep("tightened", tightened, [("living_overhand", f"paper,{time}", "ok", grows, 20 - time, 100, 1e5) for time in (0.5, 2)])
     sweep("reflex", "controller.reflex.shift", [("reflex_overhand", 0.1, "ok", both, 80, 0, 1e5)])
     runs = thigmotaxis.runs_by_law(tmp_path)
-    assert {key: thigmotaxis.counted(of, 2e5)[:4] for key, of in runs.items()} == {
-        "two contacts; 0.5": ["0 of 1", "20", "20", "100"], "two contacts; 2": ["0 of 1", "18", "18", "100"],
-        "two contacts, at the skin; 0": ["0 of 1", "0", "0", "100"], "all contacts; 0": ["1 of 1", "90", "90", "100"], "reflex; 0": ["1 of 1", "80", "80", ""]}
-    assert list(thigmotaxis.compared(runs)) == ["two contacts, tightened", "two contacts, at the skin", "all contacts", "reflex"]
+    assert [row[:7] for row in thigmotaxis.law_rows(runs, 2e5)] == [
+        ["two contacts", "spline", "0.5 s", "0 of 1", "20", "20", "100"], ["two contacts", "spline", "2 s", "0 of 1", "18", "18", "100"],
+        ["two contacts", "skin", "no", "0 of 1", "0", "0", "100"], ["all contacts", "spline", "no", "1 of 1", "90", "90", "100"],
+        ["reflex", "", "no", "1 of 1", "80", "80", ""]]
+    assert list(thigmotaxis.compared(runs)) == ["two contacts, tightened", "all contacts", "reflex"]
     assert thigmotaxis.compared(runs)["two contacts, tightened"] == runs["two contacts; 2"]
 
 
