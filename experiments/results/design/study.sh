@@ -49,7 +49,7 @@ for knot in ${KNOTS-3_1 4_1 5_1 5_2}; do
 done
 for knot in ${LARGE-6_1 6_2 6_3 7_1 3_1#3_1 3_1#-3_1}; do
   for seed in ${LARGE_SEEDS-1 2}; do
-    search "$knot-$seed-slender" 1h "$knot" --specimen "$slender" --seed "$seed"
+    search "$knot-$seed-slender" 20m "$knot" --specimen "$slender" --seed "$seed"
     unseen "$knot-$seed-slender" slender
   done
 done
@@ -59,11 +59,11 @@ for seed in ${ROBUST_SEEDS-1}; do
     unseen "$knot-$seed-animals"
   done
   for knot in ${ROBUST_LARGE-6_1 6_2 6_3 7_1 3_1#3_1 3_1#-3_1}; do
-    search "$knot-$seed-slender-animals" 1h "$knot" --specimen "$slender" --seed "$seed" --animals
+    search "$knot-$seed-slender-animals" 20m "$knot" --specimen "$slender" --seed "$seed" --animals
     unseen "$knot-$seed-slender-animals" slender
   done
 done
-for knot in ${BEYOND-6_1}; do search "$knot-1-beyond" 1h "$knot"; done
+for knot in ${BEYOND-6_1}; do search "$knot-1-beyond" 20m "$knot"; done
 for animal in ${ANIMALS-1 2 3 4 5 6 7 8 9 10}; do
   /usr/bin/python3 "$animals" specimen "$animal" >"$out/animal_$animal.toml"
   search "4_1-animal-$animal" 15m 4_1 --specimen "$out/animal_$animal.toml"
