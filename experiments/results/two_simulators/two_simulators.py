@@ -42,10 +42,10 @@ def shares(results: Results, end: str, force: str) -> list[str]:
 
 def played_back(results: Results) -> list[list[str]]:
     largest = lambda what: [f"{np.nanmax(results[f'/thigmotaxis_{interval}s/{what}']):.2g}" for interval in INTERVALS]
-    return [["headward slide of the knot's head end, of the log's, %", *shares(results, "head", "thigmotaxis")],
-            ["its tail end's, %", *shares(results, "tail", "thigmotaxis")],
-            ["head end's without f_thigmo, %", *shares(results, "head", "none")],
-            ["tail end's, by no f_thigmo either, %", *shares(results, "tail", "none")],
+    return [["way of the knot's head end, of the log's, %", *shares(results, "head", "thigmotaxis")],
+            ["of its tail end, %", *shares(results, "tail", "thigmotaxis")],
+            ["head end without f_thigmo, %", *shares(results, "head", "none")],
+            ["tail end without f_thigmo, %", *shares(results, "tail", "none")],
             ["farthest body centre from the log, cm", *largest("drift")],
             ["deepest overlap of the capsules, cm", *largest("capsule_penetration")]]
 
