@@ -45,8 +45,8 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
   }
   page += fmt::format(
       "## How sure it is\n\n"
-      "A start has normal noise of {:g} degrees on every hinge. A run succeeds if the animal ties, "
-      "holds, tightens and slides the knot, and it comes off, within all bounds of the scene.\n\n"
+      "A start has normal noise of {:g} degrees on every hinge. A run succeeds if the animal ties "
+      "and holds the knot, slides it by both ends and comes off it, within all bounds.\n\n"
       "| law that slides it | starts that succeed |\n|---|---|\n"
       "| Eq. 6 | {} of {} |\n| reflex | {} of {} |\n\n",
       start_noise_deg, best.passed[0], best.judged, best.passed[1], best.judged);
@@ -72,7 +72,7 @@ std::string design_page(const DesignOptions& options, const DesignOutcome& outco
       "| figure | value |\n|---|---|\n"
       "| time of the program, over that of the soft body | {:g} |\n"
       "| tied, and slides from | {:.2f} s |\n"
-      "| way of the knot to the head | {:.1f} cm |\n"
+      "| way of the knot's head end | {:.1f} cm |\n"
       "| released at | {:.2f} s |\n"
       "| untied at | {:.2f} s |\n"
       "| largest active torque | {:.2g} dyn cm, of {:.2g} that the muscles have |\n"

@@ -83,7 +83,7 @@ std::optional<RunSummary> run_trial(const FoundScene& found, const Trial& trial,
 /// `interrupted`.
 bool repeats(const FoundScene& found, const std::function<bool()>& interrupted);
 
-/// The animal ties the knot, holds it, tightens and slides it, and it comes off, within all bounds.
+/// The animal ties the knot, holds it, slides it by both ends and comes off it, within all bounds.
 bool succeeds(const RunSummary& run);
 
 /// The reason for failure in a few words; "" of one that succeeds.
