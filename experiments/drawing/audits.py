@@ -44,6 +44,11 @@ def value_of(findings: list[Finding], criterion: str) -> float:
     return next((float(finding.value) for finding in findings if finding.criterion == criterion and finding.value), float("nan"))
 
 
+def meets(findings: list[Finding], criterion: str) -> bool:
+    """Whether the log was judged by it, and met it."""
+    return any(finding.criterion == criterion and finding.met for finding in findings)
+
+
 def unmet(findings: list[Finding]) -> list[str]:
     """Criteria that failed."""
     return [finding.criterion for finding in findings if not finding.met]

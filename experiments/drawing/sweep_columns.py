@@ -110,6 +110,11 @@ class Cell:
         return self.texts["unmet"].split("; ")
 
     @property
+    def both_ends(self) -> bool:
+        """The knot slides by both ends."""
+        return self.texts["slide"] == BOTH_ENDS
+
+    @property
     def slid(self) -> bool:
         """The knot was kept, and slid by both ends as far as its scene asks."""
         return self.outcome == "ok" and not {"slide", "slide of both ends"} & set(self.unmet) and self.figures["slide_distance_cm"] > 0

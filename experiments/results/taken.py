@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import tables
 from hagfish_log import HagfishLog
 from script import whole
 
@@ -26,6 +27,13 @@ def taken(folder: Path) -> list[dict[str, Any]]:
     """In the order of their names, which numbers are."""
     paths = sorted(folder.glob("*.json"), key=lambda path: (len(path.stem), path.stem) if path.stem.isdigit() else (0, path.stem))
     return [json.loads(path.read_text(encoding="utf-8")) for path in paths]
+
+
+def taken_of_sweep(folder: Path) -> list[dict[str, Any]]:
+    """Of a sweep made in parts, in the order of its cells: what was taken of each log, and the name of its slide."""
+    cells = [row for part in folder.glob("table.*.csv") for row in tables.read_csv(part, ["cell", "slide"])]
+    cells.sort(key=lambda row: int(row["cell"]))
+    return [found | {"slide": row["slide"]} for row, found in zip(cells, taken(folder / "logs"), strict=True)]
 
 
 def main(name: str, folder: Path) -> None:

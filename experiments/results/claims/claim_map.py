@@ -18,7 +18,7 @@ import tables
 from hagfish_log import HagfishLog
 from script import run_script
 from sweep_columns import BOTH_ENDS
-from taken import taken
+from taken import taken_of_sweep
 
 GROWTH = claims.NAMES[1]
 READINGS = {"box": "limit on each axis (box)", "cone": "limit on the total angle (cone)"}
@@ -106,9 +106,7 @@ def over_runs(runs: list[Claim], claim: str) -> str:
 
 
 def main(folder: Path, out: Path) -> None:
-    cells = [row for part in folder.glob("table.*.csv") for row in tables.read_csv(part, ["cell", "slide"])]
-    cells.sort(key=lambda row: int(row["cell"]))
-    runs = [run | {"slide": row["slide"]} for row, run in zip(cells, taken(folder / "logs"), strict=True)]
+    runs = taken_of_sweep(folder)
     draw(runs, out / "claims.png")
     tables.write_table(out, "claims", HEAD, summary(runs))
 

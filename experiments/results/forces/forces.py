@@ -13,7 +13,7 @@ import tables
 from accuracy import STATIONS, moments_of, off, through
 from hagfish_log import HagfishLog, LogError
 from script import run_script
-from sweep_columns import BOTH_ENDS, read_cells
+from sweep_columns import read_cells
 
 PLACES = 200  # of the knot's head end, at which moments are compared
 USUAL = "2 ms"
@@ -58,7 +58,7 @@ def read_slides(folder: Path) -> dict[tuple[str, str, str], Slide]:
             raise LogError(f"{cell.path}, {scene}: {cell.outcome}")
         knot = plots.knot_of(scene)
         found[cell.axes["title"].strip('"'), "living" if "living" in scene else "towed", knot] = slide_of(
-            cell.log, cell.figures["slide_distance_cm"], cell.texts["slide"] == BOTH_ENDS)
+            cell.log, cell.figures["slide_distance_cm"], cell.both_ends)
     return found
 
 

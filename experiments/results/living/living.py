@@ -15,7 +15,7 @@ import plots
 import tables
 from script import run_script
 from slides import failure_of, slide_of
-from sweep_columns import BOTH_ENDS, Cell, read_cells
+from sweep_columns import Cell, read_cells
 
 SWEEPS = {"stiffness": "flexural rigidity, dyn cm²", "drag": "drag, times that of the scenes", "haste": "speed of the program"}
 CAPACITY = 2.7e5  # dyn cm, a guess: data/living_overhand.toml
@@ -43,7 +43,7 @@ def run_of(cell: Cell) -> Run:
     torque = np.abs(np.nan_to_num(log["/forces/active"])).max(axis=1)  # no step begins at the end
     frames = {phase: log.in_phase(phase) for phase in PHASES}
     off = not failure_of(log, cell.unmet)
-    return Run(plots.knot_of(cell.axes["scene"]), off, off and slide.kind == BOTH_ENDS, slide.travel, cell.figures["both_ends_percent"],
+    return Run(plots.knot_of(cell.axes["scene"]), off, off and cell.both_ends, slide.travel, cell.figures["both_ends_percent"],
                slide.met, slide.force, float(log["/steps/penetration"].max()),
                {phase: float(torque[rows].max()) if rows.size else np.nan for phase, rows in frames.items()})
 
@@ -107,14 +107,21 @@ def sweep_rows(sweeps: dict[str, dict[str, list[tuple[float, Run]]]]) -> list[li
     return rows
 
 
+def off(runs: list[Run]) -> list[Run]:
+    return [run for run in runs if run.off]
+
+
+def came_off(runs: list[Run]) -> str:
+    """How many knots come off, how many of these by both ends, and the least share of that, %."""
+    return f"{len(off(runs))}; {sum(run.slid for run in runs)}; {min(run.share for run in off(runs)):.0f}"
+
+
 def main_table(folder: Path) -> None:
-    off = lambda runs: [run for run in runs if run.off]
     held, free = ([run for run, in runs_of(folder / name)] for name in ("held", "free"))
     animals = list(map(off, runs_of(folder / "animals")))
     programs = [cell.log.scene()["script"]["curvature"] for cell in read_cells(folder / "held")]
     large = lambda value: tables.short(value, ".1e")
     slid = lambda run: f"{run.travel:.1f}; {run.share:.0f}; {100 * run.met:.0f}"
-    share = lambda runs: f"{len(off(runs))}; {sum(run.slid for run in runs)}; {min(run.share for run in off(runs)):.0f}"
     met = [[100 * run.met for run in runs if np.isfinite(run.met)] for runs in animals]
     tables.write_table(folder, "living", ["h = 5 ms, `active-set`", *plots.SCENES.values()], [
         ["clamped: way of the knot's head end, cm; share of a slide by both ends, %; steps that meet Eq. 6, %", *map(slid, held)],
@@ -124,9 +131,9 @@ def main_table(folder: Path) -> None:
         ["largest torque of a hinge, forming; sliding, dyn cm", *(f"{large(run.torque['form'])}; {large(run.torque['slide'])}" for run in held)],
         ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}" for each in programs)],
         ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; of these by both ends; least share, %",
-         *map(share, runs_of(folder / "heldstart"))],
-        ["free: the same", *map(share, runs_of(folder / "freestart"))],
-        ["of 10 other animals, clamped: the same", *map(share, animals)],
+         *map(came_off, runs_of(folder / "heldstart"))],
+        ["free: the same", *map(came_off, runs_of(folder / "freestart"))],
+        ["of 10 other animals, clamped: the same", *map(came_off, animals)],
         ["of those off: sliding steps that meet Eq. 6, %: median, least", *(f"{np.median(each):.0f}, {min(each):.0f}" for each in met)]])
 
 

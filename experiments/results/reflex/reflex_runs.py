@@ -257,11 +257,11 @@ def log_row(study: str, path: Path) -> Row:
     scene, _, setting = path.stem.partition("-")
     held = str(log.attribute("status")) == "complete"
     judged = audits.audit(path)
-    grows = "slide of both ends" in audits.unmet(judged)
+    both = audits.meets(judged, "slide of both ends")
     came = held and log["/trajectory/time"][-1] < log.scene()["time"]["duration"] - 1
     return Row(study, plots.knot_of(scene), head_of(scene), setting.replace("_", " "),
                float(head[0] - np.nanmin(head)), float(time[-1] - time[0]), "yes" if held else "no",
-               "yes" if came and not grows else "no", f"{audits.value_of(judged, 'slide of both ends'):.0f} % by both ends" if grows else BOTH_ENDS,
+               "yes" if came and both else "no", BOTH_ENDS if both else f"{audits.value_of(judged, 'slide of both ends'):.0f} % by both ends",
                middle=middle_of(log, plots.knot_of(scene)), commit=str(log.attribute("git_revision"))[:12])
 
 

@@ -16,6 +16,7 @@ from hagfish_log import HagfishLog, LogError
 from means import read_means
 from script import run_script
 from slides import failure_of
+from sweep_columns import BOTH_ENDS
 from tables import write_table
 
 AS_IS = "as_is"
@@ -109,7 +110,7 @@ def rows(folder: Path) -> list[list[object]]:
     if missing:
         raise LogError(f"{folder}: without run choice_{sorted(missing)[0]}")
     as_is = runs[AS_IS]
-    found: list[list[object]] = [["as it is", "", "1", "", "", f"{as_is.penetration:.2g}", as_is.failure or ", ".join(as_is.unmet) or "slides by both ends"]]
+    found: list[list[object]] = [["as it is", "", "1", "", "", f"{as_is.penetration:.2g}", as_is.failure or ", ".join(as_is.unmet) or BOTH_ENDS]]
     for name, (choice, instead, _) in CHOICES.items():
         run = runs[name]
         slid = not run.failure and np.isfinite(run.force)

@@ -12,10 +12,10 @@ import tables
 from hagfish_log import HagfishLog
 from overview import bending
 from script import run_script
-from sweep_columns import BOTH_ENDS, Cell, read_cells
+from sweep_columns import Cell, read_cells
 
-LAWS = {("paper", "centreline"): "two contacts", ("paper", "skin"): "two contacts, at the skin",
-        ("all_contacts", "centreline"): "all contacts", ("all_contacts", "skin"): "all contacts, at the skin"}
+LAWS = {"paper": "two contacts", "all_contacts": "all contacts"}
+SEEN_AT = {"centreline": "spline", "skin": "skin"}
 REFLEX = "reflex"
 LIKE_PAPER = "two contacts, tightened"  # for the longest of grids/tightened.toml, as the paper does
 DRAWN = (LIKE_PAPER, "two contacts", "all contacts", REFLEX)
@@ -30,26 +30,29 @@ def knot_of(scene: str) -> tuple[str, str]:
     return plots.knot_of(scene), "free" if scene.endswith("_free") else "held"
 
 
-def law_of(axes: dict[str, str]) -> str:
-    return LAWS[axes["controller.law"], axes.get("controller.eq6_at", "centreline")] if "controller.law" in axes else REFLEX
+Law = tuple[str, str, float]  # at which contacts, where these are seen, and s of tightening
 
 
-def runs_by_law(folder: Path) -> dict[str, list[Cell]]:
-    """Of law and seconds of tightening, `law; s`: the runs of all knots."""
-    runs: dict[str, list[Cell]] = {}
+def law_of(axes: dict[str, str]) -> Law:
+    if "controller.law" not in axes:
+        return REFLEX, "", 0.0
+    return LAWS[axes["controller.law"]], SEEN_AT[axes.get("controller.eq6_at", "centreline")], float(axes.get("controller.tighten_time", 0))
+
+
+def runs_by_law(folder: Path) -> dict[Law, list[Cell]]:
+    """The runs of all knots."""
+    runs: dict[Law, list[Cell]] = {}
     for grid in ("laws", "tightened", "reflex"):
         for cell in read_cells(folder / grid):
-            runs.setdefault(f"{law_of(cell.axes)}; {cell.axes.get('controller.tighten_time', '0')}", []).append(cell)
+            runs.setdefault(law_of(cell.axes), []).append(cell)
     order = [*LAWS.values(), REFLEX]
-    place = lambda key: (order.index(key.split("; ")[0]), float(key.split("; ")[1]))
-    return {key: runs[key] for key in sorted(runs, key=place)}
+    return dict(sorted(runs.items(), key=lambda of: (order.index(of[0][0]), of[0][1] == "skin", of[0][2])))
 
 
-def compared(runs: dict[str, list[Cell]]) -> dict[str, list[Cell]]:
+def compared(runs: dict[Law, list[Cell]]) -> dict[str, list[Cell]]:
     """Of laws at the spline without tightening, and of LIKE_PAPER."""
-    longest = max((key for key in runs if key.startswith("two contacts; ")), key=lambda key: float(key.split("; ")[1]))
-    return {LIKE_PAPER: runs[longest]} | {key.removesuffix("; 0"): of for key, of in runs.items()
-                                         if key.endswith("; 0") and "skin" not in key}
+    longest = max(law for law in runs if law[:2] == ("two contacts", "spline"))
+    return {LIKE_PAPER: runs[longest]} | {law: of for (law, at, time), of in runs.items() if time == 0 and at != "skin"}
 
 
 def work_per_cm(log: HagfishLog, way: float) -> tuple[float, float]:
@@ -90,20 +93,15 @@ def counted(cells: list[Cell], most: float) -> list[str]:
     """How many runs slide by both ends, and by how much. `most`: the muscles' capacity, dyn cm."""
     figure = lambda name: np.array([cell.figures[name] for cell in cells])
     shares, met = figure("both_ends_percent"), figure("eq6_percent")
-    slid = [cell.outcome == "ok" and cell.texts["slide"] == BOTH_ENDS for cell in cells]
+    slid = [cell.outcome == "ok" and cell.both_ends for cell in cells]
     failed = [" ".join([*knot_of(cell.axes["scene"]), "" if np.isnan(share) else f"{share:.0f} %"]).strip()
               for cell, share, well in zip(cells, shares, slid) if not well]
     return [f"{sum(slid)} of {len(slid)}", f"{np.nanmin(shares):.0f}", f"{np.nanmedian(shares):.0f}", f"{np.nanmin(met):.0f}" if met.any() else "",
             f"{np.nanmax(figure('largest_torque_dyn_cm')) / most:.2f}", "; ".join(failed)]
 
 
-def law_rows(runs: dict[str, list[Cell]], most: float) -> list[list[str]]:
-    rows = []
-    for key, of in runs.items():
-        law, time = key.split("; ")
-        at = "" if law == REFLEX else "skin" if "skin" in law else "spline"
-        rows.append([law.removesuffix(", at the skin"), at, "no" if time == "0" else f"{time} s", *counted(of, most)])
-    return rows
+def law_rows(runs: dict[Law, list[Cell]], most: float) -> list[list[str]]:
+    return [[law, at, f"{time:g} s" if time else "no", *counted(of, most)] for (law, at, time), of in runs.items()]
 
 
 def change_rows(folder: Path, most: float) -> list[list[str]]:

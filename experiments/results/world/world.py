@@ -10,7 +10,7 @@ import numpy as np
 
 import tables
 from script import run_script
-from taken import taken
+from taken import taken, taken_of_sweep
 from world_logs import LAWS
 
 
@@ -95,12 +95,10 @@ def became(slide: str, off: bool) -> str:
 
 
 def robot(folder: Path) -> None:
-    parts = [row for part in (folder / "robot").glob("table.*-of-*.csv") for row in tables.read_csv(part, ["cell", "slide"])]
-    slides = [row["slide"] for row in sorted(parts, key=lambda row: int(row["cell"]))]
     rows = [[f"{run['mass']:.3g}", f"{run['weight']:.2g}", f"{run['drag']:g}", f"{run['capacity']:g}", f"{run['stiffness']:g}",
-             became(slide, run["off"]),
+             became(run["slide"], run["off"]),
              *("" if np.isnan(run[name]) else f"{run[name]:.3g}" for name in ("way", "share")), f"{run['torque']:.2g}", overlap(run)]
-             for run, slide in zip(taken(folder / "robot" / "logs"), slides, strict=True)]
+             for run in taken_of_sweep(folder / "robot")]
     tables.write_table(folder, "world_robot", ["mass, kg", "weight left, of all of it", "drag across, kg/(s m)",
                                                "torque bound, N m", "stiffness of a joint, N m/rad", "what became of it",
                                                "way of the head end, cm", "share of a slide by both ends, %",

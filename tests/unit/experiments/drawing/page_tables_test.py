@@ -157,6 +157,8 @@ def test_the_reflex_has_its_limit_where_one_end_stays_or_time_is_up(monkeypatch)
     assert ends(5.0) and not ends(40.0) and not reflex_limits.slides(None)
     met_of["slide of both ends"] = False
     assert not ends(5.0)
+    del met_of["slide of both ends"]  # not judged
+    assert not ends(5.0)
 
 
 def test_knots_are_counted_that_tie_hold_and_come_off():
@@ -202,7 +204,7 @@ def test_slides_are_counted_by_what_is_varied(tmp_path):
         ["two contacts", "skin", "no", "0 of 1", "0", "0", "100"], ["all contacts", "spline", "no", "1 of 1", "90", "90", "100"],
         ["reflex", "", "no", "1 of 1", "80", "80", ""]]
     assert list(thigmotaxis.compared(runs)) == ["two contacts, tightened", "all contacts", "reflex"]
-    assert thigmotaxis.compared(runs)["two contacts, tightened"] == runs["two contacts; 2"]
+    assert thigmotaxis.compared(runs)["two contacts, tightened"] == runs["two contacts", "spline", 2]
 
 
 def test_what_became_of_a_robot_follows_its_slide(tmp_path):
@@ -228,6 +230,7 @@ class Swept:
 def test_sweeps_of_living_animals():
     sweeps = {what: {"3_1": [], "4_1": []} for what in living.SWEEPS}
     sweeps["drag"] = {"3_1": [(1.0, Swept(True, True, 93, 2e5))], "4_1": [(1.0, Swept(True, False, 36, 1e5)), (1.0, Swept(False, False, 5, 1e5))]}
+    assert living.came_off([run for runs in sweeps["drag"].values() for _, run in runs]) == "2; 1; 36"
     assert living.sweep_rows(sweeps) == [["drag, times that of the scenes: 1", "1 of 3", "36", "2e+05 to 2e+05"]]
 
 

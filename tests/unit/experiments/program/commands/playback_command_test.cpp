@@ -32,6 +32,10 @@ TEST_F(ProgramTest, PlaybackAppliesTheMeansBetweenFramesAlone) {
     const ProgramOutcome played = run_program("playback a.log --out p.log --force");
     EXPECT_EQ(played.code, 0) << played.output;
     const Hdf5Reader h5(folder / "p.log");
+    for (const std::string group : {"", "/thigmotaxis_0.04s"}) {
+      EXPECT_LT(std::ranges::max(h5.doubles(group + "/head_end")),
+                std::ranges::min(h5.doubles(group + "/tail_end")));
+    }
     return std::pair(h5.doubles("/thigmotaxis_0.04s/drift"), h5.doubles("/none_0.04s/drift"));
   };
   const auto [driven, none] = paths();
