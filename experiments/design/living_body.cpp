@@ -19,7 +19,7 @@ namespace {
 
 constexpr double between_times = 0.35;  // s of the soft body
 constexpr int station_count = 25;
-constexpr double time_to_slide = 50;  // s, for half of a body
+constexpr double time_to_slide = 50;  // s, for 25 cm at the speed below
 constexpr const char* row_cap =
     "cap = 5e3  # dyn, of a row of Eq. 6: muscles have the torque for it\n";
 
