@@ -41,7 +41,6 @@ CHOICES = {
     "votes_45": ("15 votes on the knot", "45", "knot.votes=45"),
     "no_wall": ("head plate", "none", "wall.present=false"),
 }
-FINER = "choice_bodies_200"  # whose sliding force is nearer to the truth
 LEAST_SAVING = 0.1  # of CPU time, to change what works
 LEAST_FACTOR = 2  # of penetration, to count as deeper
 LEAST_FORCE = 2  # % of the sliding force, to count as another: chance makes far less
@@ -93,7 +92,7 @@ def verdict_of(run: Run, as_is: Run) -> str:
         return "keep: else strands overlap more"
     force = 100 * (run.force / as_is.force - 1)
     if abs(force) > LEAST_FORCE:
-        return "keep for the price: the finer mesh is nearer to the truth" if run.name == FINER else "keep: else the sliding force is another"
+        return "keep: else the sliding force is another" + (", and it takes longer" if saving <= -LEAST_SAVING else "")
     if run.penetration < as_is.penetration / LEAST_FACTOR and saving > -LEAST_SAVING:
         return "change: strands overlap less"
     same = (run.slide, run.force, run.penetration) == (as_is.slide, as_is.force, as_is.penetration)
