@@ -1,6 +1,7 @@
 #include "experiments/film/film.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "experiments/film/film_checks.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>

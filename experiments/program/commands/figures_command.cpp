@@ -10,6 +10,7 @@
 #include "core/input/input_text.hpp"
 #include "core/knot/knot.hpp"
 #include "core/log/reading/log_contents.hpp"
+#include "core/log/reading/logged_run.hpp"
 #include "experiments/common/text_file.hpp"
 #include "experiments/judge/replay.hpp"
 #include "experiments/program/program.hpp"
