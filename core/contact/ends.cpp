@@ -14,7 +14,7 @@ constexpr double step_tolerance = 1e-6;
 
 /// The point of the other strand nearest to a point of the first.
 struct Nearest {
-  double gap = 0;    ///< cm; the margin if there is none
+  double gap = 0;    ///< cm; above the margin, so above contact_gap, if there is none
   int segment = -1;  ///< -1: there is none
   double t = 0;
   double rate = NAN;  ///< of the gap by the first strand's parameter, cm
