@@ -38,7 +38,7 @@ class ScaledProblem final : public Ipopt::TNLP {
   Eigen::VectorXd set(const BoxQp& problem, const Eigen::VectorXd& x, double far) {
     const Eigen::VectorXd s = problem.A.diagonal().cwiseSqrt().cwiseInverse();
     const double beta = rhs_scale(problem, s.cwiseInverse());
-    const Eigen::VectorXd t = beta * s;
+    Eigen::VectorXd t = beta * s;
     qp = {s.asDiagonal() * problem.A * s.asDiagonal(),
           (s.cwiseProduct(problem.b) / beta).cwiseMax(-far).cwiseMin(far),
           problem.lower.cwiseQuotient(t), problem.upper.cwiseQuotient(t)};
