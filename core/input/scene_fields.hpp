@@ -29,8 +29,11 @@ struct Acts {
 };
 
 /// The key of a field that does not act everywhere.
-struct ActingKey : std::string_view {
+struct ActingKey {
+  std::string_view key;
   Acts acts;
+
+  operator std::string_view() const { return key; }
 };
 inline ActingKey Acts::operator()(std::string_view key) const { return {key, *this}; }
 

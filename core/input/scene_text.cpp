@@ -147,8 +147,8 @@ double waypoint_size(const TableReader& root, const ScriptFile& file, double len
   const bool position = file.settings.kind == ScriptSettings::Kind::position;
   const bool force = file.unit == WaypointUnit::dyn || file.unit == WaypointUnit::newton;
   if (file.unit != WaypointUnit::unsaid && position == force) {
-    root.fail("script.unit", position ? "positions are in \"L\", \"cm\" or \"m\""
-                                      : "forces are in \"dyn\" or \"N\"");
+    root.fail("script.unit",
+              position ? R"(positions are in "L", "cm" or "m")" : R"(forces are in "dyn" or "N")");
   }
   switch (file.unit) {
     case WaypointUnit::unsaid:

@@ -121,7 +121,7 @@ Slide slide_through(const Model& model, std::span<const SlideMoment> moments, Bo
   slide.leading_way = sense * (lead(first) - lead(last));
   slide.trailing_way = sense * (trail(first) - trail(last));
   const auto [arc, sum] = radii_along(model);
-  const auto radii = [&](double at) { return profile(arc, sum, at); };
+  const auto radii = [&arc = arc, &sum = sum](double at) { return profile(arc, sum, at); };
   const double kept = radii(lead(last)) + radii(trail(first)) - radii(lead(first));
   slide.taper_asks = sense * (trail(first) - profile(sum, arc, kept));
   if (!(slide.leading_way >= least_way * model.length())) return slide;

@@ -1,5 +1,7 @@
 #include "core/input/toml/toml_document.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -55,7 +57,7 @@ toml::value parse_value(const std::string& text) {
     if (parsed.as_table().size() == 1) return parsed.at("value");
   } catch (const InputError&) {  // a bare string, and wrong only where no string is wanted
   }
-  return toml::value(text);
+  return {text};
 }
 
 /// NAME_rad for NAME_deg and back; empty for any other key.
@@ -94,8 +96,8 @@ void TomlDocument::set(const Override& change, const std::string& shown) {
   while (std::getline(parts, part, '.')) {
     if (at->is_uninitialized()) *at = toml::table();
     if (!at->is_table()) {
-      throw_input_error(file + ": --set " + shown + "=" + shortened(change.value) + ": " + walked +
-                        " is not a table");
+      throw_input_error(fmt::format("{}: --set {}={}: {} is not a table", file, shown,
+                                    shortened(change.value), walked));
     }
     walked = join_keys(walked, part);
     at->as_table().erase(other_unit(part));

@@ -34,7 +34,7 @@ struct TableReader::Impl {
   struct Entry {
     std::string key;
     const toml::value* value = nullptr;  ///< nothing where the key is absent
-    std::string subject = "";
+    std::string subject = {};
   };
 
   std::shared_ptr<TomlDocument> document;

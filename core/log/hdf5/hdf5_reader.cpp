@@ -120,7 +120,7 @@ std::string text_of(const H5::Attribute& attribute, const std::string& name) {
   }
   char* raw = nullptr;
   attribute.read(type, static_cast<void*>(&raw));
-  const std::string value = raw != nullptr ? raw : "";
+  std::string value = raw != nullptr ? raw : "";
   H5::DataSet::vlenReclaim(static_cast<void*>(&raw), type, attribute.getSpace());
   return value;
 }
