@@ -57,7 +57,7 @@ toml::value parse_value(const std::string& text) {
     if (parsed.as_table().size() == 1) return parsed.at("value");
   } catch (const InputError&) {  // a bare string, and wrong only where no string is wanted
   }
-  return {text};
+  return toml::value(text);
 }
 
 /// NAME_rad for NAME_deg and back; empty for any other key.
