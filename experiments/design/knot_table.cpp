@@ -108,7 +108,8 @@ std::int64_t jones_at(const Diagram& diagram, std::int64_t a) {
     twists += diagram.sign[crossing];
     std::map<Joints, std::int64_t> next;
     for (const auto& [before, weight] : states) {
-      const auto smooth = [&](int a1, int b1, int a2, int b2, std::int64_t factor) {
+      const auto smooth = [&, &before = before, &weight = weight](int a1, int b1, int a2, int b2,
+                                                                  std::int64_t factor) {
         Joints joints = before;
         std::int64_t value = weight * factor % prime;
         for (const auto& [from, to] : {std::pair(a1, b1), std::pair(a2, b2)}) {

@@ -83,7 +83,7 @@ ProgramFit fit_program(const Model& model, const std::vector<double>& time,
     fit.rms_angle += angles.squaredNorm();
     fit.largest_error = std::max(fit.largest_error, off.lpNorm<Eigen::Infinity>());
   }
-  const double count = static_cast<double>(frames * hinges);
+  const auto count = static_cast<double>(frames * hinges);
   fit.rms_error = std::sqrt(fit.rms_error / count);
   fit.rms_angle = std::sqrt(fit.rms_angle / count);
   return fit;

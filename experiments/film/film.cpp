@@ -41,8 +41,8 @@ void sort_points(const std::string& file, FilmTable& table) {
     throw_input_error(fmt::format("{}: time {:g} s: {} {:g} occurs twice with different numbers",
                                   file, a.time, table.by_arc ? "s" : "point", a.number));
   };
-  const auto again = std::ranges::unique(table.points, same);
-  table.points.erase(again.begin(), again.end());
+  table.points.erase(std::unique(table.points.begin(), table.points.end(), same),
+                     table.points.end());
 }
 
 /// The way along a body between two points of an arc through them: the chord, and how far the body
@@ -191,7 +191,7 @@ Film read_film(const std::string& file, const FilmReading& reading) {
   std::vector<double> numbers;
   for (const FilmPoint& point : table.points) numbers.push_back(point.number);
   std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   if (numbers.size() < least_points) {
     fail(fmt::format("{} points along the body; a midline needs {}", numbers.size(), least_points));
   }

@@ -189,10 +189,9 @@ void drop_repeats(Film& film, FilmRemarks& remarks) {
 /// A midline whose points are numbered from the other end; `ends` is the sum of the film's first
 /// and last place, which need not be the animal's tips.
 FilmFrame turned_round(const FilmFrame& frame, double ends) {
-  FilmFrame out{frame.time, {}, frame.point.rowwise().reverse()};
-  for (auto place = frame.place.rbegin(); place != frame.place.rend(); ++place) {
-    out.place.push_back(std::clamp(ends - *place, 0.0, 1.0));
-  }
+  FilmFrame out{
+      frame.time, {frame.place.rbegin(), frame.place.rend()}, frame.point.rowwise().reverse()};
+  for (double& place : out.place) place = std::clamp(ends - place, 0.0, 1.0);
   return out;
 }
 

@@ -281,7 +281,7 @@ class TableReader {
   /// Rows of EthoVision's heading, the last two of which name columns and units.
   std::size_t header_rows() const {
     const std::optional<double> lines = text_.number(0, 1);
-    const double most = static_cast<double>(text_.line(text_.rows() - 1));
+    const auto most = static_cast<double>(text_.line(text_.rows() - 1));
     if (!lines || !(*lines >= 2) || *lines > most) {
       fail(fmt::format("number of header lines = {}: must be 2 to {:g}",
                        shortened(std::string(text_.cell(0, 1))), most));

@@ -96,8 +96,8 @@ std::vector<FilmTrial> try_stiffness(const ResolvedScene& base, const CurvatureP
                                      const FilmedKnot& knot, const Watcher& watch) {
   std::vector<FilmTrial> trials;
   int failed = 0;
-  double stiffness = base.scene.active.stiffness;
-  for (int k = 0; k < doublings && failed < 2; ++k, stiffness *= 2) {
+  for (int k = 0; k < doublings && failed < 2; ++k) {
+    const double stiffness = std::ldexp(base.scene.active.stiffness, k);
     const ResolvedScene resolved = scene_of_film(base, program, knot, stiffness);
     const Scene& scene = resolved.scene;
     const Model& model = resolved.model;

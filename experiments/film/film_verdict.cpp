@@ -27,7 +27,7 @@ constexpr double still_share = 0.03, most_of_film = 0.9;
 double first_moves(const Film& film, double first_place) {
   std::vector<Eigen::Vector3d> points;
   for (const FilmFrame& frame : film.frames) {
-    if (frame.place.front() == first_place) points.push_back(frame.point.col(0));
+    if (frame.place.front() == first_place) points.emplace_back(frame.point.col(0));
   }
   Eigen::Vector3d usual;
   for (Eigen::Index d = 0; d < 3; ++d) {
