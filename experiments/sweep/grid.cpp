@@ -23,6 +23,17 @@ std::uint64_t checksum(const std::string& text) {
   return hash;
 }
 
+/// Goes on to the next places of all axes but `axis` and that of seeds, which are all alike; false
+/// after the last.
+bool advance(const Grid& grid, std::size_t axis, std::vector<std::size_t>& places) {
+  for (std::size_t a = grid.axes.size(); a-- > 0;) {
+    if (a == axis || is_seed(grid.axes[a])) continue;
+    if (++places[a] < grid.axes[a].size()) return true;
+    places[a] = 0;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::size_t Grid::size() const {
@@ -79,15 +90,6 @@ ResolvedScene scene_at(const Grid& grid, const std::vector<std::size_t>& places)
 ResolvedScene scene_with(const Grid& grid, std::size_t axis, std::size_t place) {
   std::vector<std::size_t> places(grid.axes.size(), 0);
   places[axis] = place;
-  // The next places of all other axes but that of seeds, which are all alike; false after the last.
-  const auto advance = [&] {
-    for (std::size_t a = grid.axes.size(); a-- > 0;) {
-      if (a == axis || is_seed(grid.axes[a])) continue;
-      if (++places[a] < grid.axes[a].size()) return true;
-      places[a] = 0;
-    }
-    return false;
-  };
   std::exception_ptr first;
   for (int tried = 0; tried < most_tried; ++tried) {
     try {
@@ -95,7 +97,7 @@ ResolvedScene scene_with(const Grid& grid, std::size_t axis, std::size_t place) 
     } catch (const InputError&) {
       if (!first) first = std::current_exception();
     }
-    if (!advance()) break;
+    if (!advance(grid, axis, places)) break;
   }
   std::rethrow_exception(first);
 }
