@@ -14,7 +14,7 @@ constexpr double step_tolerance = 1e-6;
 
 /// The point of the other strand nearest to a point of the first.
 struct Nearest {
-  double gap = 0;    ///< cm; above the margin, so above contact_gap, if there is none
+  double gap = 0;    ///< cm; if there is none, above all that are looked for
   int segment = -1;  ///< -1: there is none
   double t = 0;
   double rate = NAN;  ///< of the gap by the first strand's parameter, cm
@@ -62,15 +62,20 @@ Nearest nearest_on(const SplineSegment& segment, const Eigen::Vector3d& x, doubl
 /// Finds nearest points of the body's other strands for points of one strand.
 class NearestFinder {
  public:
+  /// Finds those with a gap of `level` (cm) and of the margin.
   NearestFinder(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
-                bool tail, std::vector<int>& near)
-      : segments_(segments), settings_(settings), tail_(tail), near_(near) {}
+                double level, bool tail, std::vector<int>& near)
+      : segments_(segments),
+        settings_(settings),
+        sought_(std::max(level, settings.margin)),
+        tail_(tail),
+        near_(near) {}
 
   /// For the point `t` of segment `own`, among all segments that may touch it.
   Nearest nearest(int own, double t) {
     const Eigen::Vector3d x = segments_[own].point(t);
     const double r = segments_[own].radius(t);
-    const double most = settings_.margin + 0.01 * segments_[own].r0;  // more than the caller needs
+    const double most = sought_ + 0.01 * segments_[own].r0;  // more than the caller needs
     if (own != own_) list_near(segments_, settings_, tail_, own_ = own, most, near_);
     Nearest best;
     best.gap = most;
@@ -97,6 +102,7 @@ class NearestFinder {
  private:
   const std::vector<SplineSegment>& segments_;
   const ContactSettings& settings_;
+  double sought_;
   bool tail_;
   int own_ = -1;            ///< segment of the last search
   std::vector<int>& near_;  ///< segments that may be near it
@@ -130,7 +136,7 @@ Place close_in(double level, int own, double inside, Place end, NearestFinder& s
 /// walks on while borders of segments are within it, then closes in on the last segment.
 Contact end_from(const std::vector<SplineSegment>& segments, const ContactSettings& settings,
                  double level, bool tail, int own, double t, std::vector<int>& near) {
-  NearestFinder strand(segments, settings, tail, near);
+  NearestFinder strand(segments, settings, level, tail, near);
   const double border = tail ? 1 : 0;
   const auto is_last = [&](int segment) {
     return tail ? segment + 1 == static_cast<int>(segments.size()) ||

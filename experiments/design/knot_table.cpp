@@ -108,6 +108,7 @@ std::int64_t jones_at(const Diagram& diagram, std::int64_t a) {
     twists += diagram.sign[crossing];
     std::map<Joints, std::int64_t> next;
     for (const auto& [before, weight] : states) {
+      // Clang 14 takes bindings by name alone.
       const auto smooth = [&, &before = before, &weight = weight](int a1, int b1, int a2, int b2,
                                                                   std::int64_t factor) {
         Joints joints = before;

@@ -82,12 +82,10 @@ ExportTable skin_table(const SweptSkin& swept, const Model& model, bool si) {
        {"since", figure_unit::second, "when the knot first touched it; empty where it never did"}},
       si);
   const auto stations = static_cast<double>(swept.area.cols());
-  const auto around = static_cast<double>(swept.area.rows());
   for (Eigen::Index i = 0; i < swept.area.cols(); ++i) {
-    for (Eigen::Index k = 0; k < swept.area.rows(); ++k) {
+    for (int k = 0; k < sides; ++k) {
       table.add({(static_cast<double>(i) + 0.5) / stations * model.length(),
-                 (static_cast<double>(k) + 0.5) / around * 2 * std::numbers::pi, swept.area(k, i),
-                 swept.since(k, i)});
+                 (k + 0.5) / sides * whole_turn, swept.area(k, i), swept.since(k, i)});
     }
   }
   return table;

@@ -128,7 +128,6 @@ Scene pulled_scene(double radius, double force, double step, double apart) {
   Scene scene;
   scene.wall.present = false;
   scene.contact = {.margin = radius, .least_arc = apart};
-  scene.controller.contact_gap = 0.5 * radius;
   scene.constraints.baumgarte_speed = 10 * radius;
   scene.constraints.tolerance = 0.003 * radius;
   scene.constraints.stride = radius;

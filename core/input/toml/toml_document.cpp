@@ -1,7 +1,5 @@
 #include "core/input/toml/toml_document.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <sstream>
 
@@ -96,8 +94,8 @@ void TomlDocument::set(const Override& change, const std::string& shown) {
   while (std::getline(parts, part, '.')) {
     if (at->is_uninitialized()) *at = toml::table();
     if (!at->is_table()) {
-      throw_input_error(fmt::format("{}: --set {}={}: {} is not a table", file, shown,
-                                    shortened(change.value), walked));
+      throw_input_error(file + ": --set " + shown + "=" + shortened(change.value) + ": " + walked +
+                        " is not a table");
     }
     walked = join_keys(walked, part);
     at->as_table().erase(other_unit(part));

@@ -23,7 +23,7 @@ ROWS = {"knot held": ("the knot is a 3_1 from tightening to release, frames", "a
         "forces of rows": ("logged forces, recomputed from q, q̇ and multipliers, off by, of 1e-9 of their scale", "≤ {}"),
         "f_thigmo past the knot": ("f_thigmo past the knot, dyn cm", "{}"), "force balance": ("forces balance, of their scale", "≤ {}"),
         "balance of means": ("their means balance", "≤ {}"), "forward-inverse": ("MuJoCo makes q̇ of them, off by", "≤ {}"),
-        "energy ledger": ("energy ledger off by more than rounding, of the energy that passed", "≤ {}")}
+        "energy ledger": ("imbalance of the energy ledger, of the energy that passed; 0 within rounding", "≤ {}")}
 ROUNDING = 1e-6  # figures below are rounding, of which one digit is shown
 ROUNDING_OF_TOLERANCE = 1e-5  # the same of what is a share of a tolerance of 1e-9
 

@@ -10,8 +10,8 @@
 namespace hagfish::sines_test {
 
 /// EXPECTs the sines and cosines of the standard library, of many angles at once and of each alone,
-/// to two units in the last place and 1e-26 of the angle, which is what is left of it where they
-/// are nearly zero; and of the opposite angles exactly the opposite and the same.
+/// to two units in the last place, and of the opposite angles exactly the opposite and the same.
+/// Where the library has none of many at once, these are those of each alone.
 void expect_sines_and_cosines(const Eigen::VectorXd& angles) {
   constexpr double rounding = 4.5e-16, of_quarter = 1e-26;
   Eigen::VectorXd sine, cosine, sine_of_opposite, cosine_of_opposite;
@@ -24,9 +24,13 @@ void expect_sines_and_cosines(const Eigen::VectorXd& angles) {
   for (Eigen::Index k = 0; k < angles.size(); ++k) {
     const double s = std::sin(angles[k]), c = std::cos(angles[k]);
     const double nearly_zero = of_quarter * std::abs(angles[k]);
-    EXPECT_NEAR(sine[k], s, rounding * std::abs(s) + nearly_zero) << angles[k];
-    EXPECT_NEAR(cosine[k], c, rounding * std::abs(c) + nearly_zero) << angles[k];
     const SineCosine alone = plain_sine_and_cosine(angles[k]);
+    if (sine[k] != alone.sine) {
+      EXPECT_NEAR(sine[k], s, rounding * std::abs(s)) << angles[k];
+    }
+    if (cosine[k] != alone.cosine) {
+      EXPECT_NEAR(cosine[k], c, rounding * std::abs(c)) << angles[k];
+    }
     const SineCosine opposite = plain_sine_and_cosine(-angles[k]);
     EXPECT_NEAR(alone.sine, s, rounding * std::abs(s) + nearly_zero) << angles[k];
     EXPECT_NEAR(alone.cosine, c, rounding * std::abs(c) + nearly_zero) << angles[k];

@@ -13,8 +13,9 @@ namespace hagfish::ends_test {
 
 constexpr double level = 0.05;
 
-TouchingEnds ends_of(const std::vector<SplineSegment>& segments) {
+TouchingEnds ends_of(const std::vector<SplineSegment>& segments, double margin = 0.1) {
   Scene scene;
+  scene.contact.margin = margin;
   scene.controller.contact_gap = level;
   EndPatches patches;
   return touching_ends(segments, find_contacts(segments, scene.contact).contacts, scene, patches);
@@ -55,6 +56,15 @@ TEST(TouchingEnds, OfCrossingLegsAreWhereTheGapIs) {
     EXPECT_NEAR(ends.first->gap, level, 1e-12);
     EXPECT_NEAR(ends.last->gap, level, 1e-12);
   }
+}
+
+TEST(TouchingEnds, DoNotDependOnTheMargin) {
+  // A scene file has no gap above its margin; a scene made in C++ may.
+  const std::vector<SplineSegment> segments = trefoil(table1_hagfish(), 2.2);
+  const TouchingEnds ends = ends_of(segments), narrow = ends_of(segments, level / 2);
+  ASSERT_TRUE(narrow.first && narrow.last);
+  EXPECT_NEAR(narrow.first->arc_a, ends.first->arc_a, 1e-9);
+  EXPECT_NEAR(narrow.last->arc_b, ends.last->arc_b, 1e-9);
 }
 
 TEST(TouchingEnds, BeyondThemNothingTouches) {
