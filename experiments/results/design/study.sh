@@ -11,9 +11,10 @@ animals=$root/experiments/results/animals.py
 # search FOLDER ARGUMENT...: `hagfish design` for a quarter of an hour at most, and runs of what it found at three steps.
 search() {
   local folder=$out/$1 resume=() step log
-  if [[ ! -e $folder/result.csv ]]; then
+  if [[ ! -e $folder/ended ]]; then
     [[ -e $folder/search.toml ]] && resume=(--resume)
     "$hagfish" design "${@:2}" --out "$folder" --budget 15m --threads 2 "${resume[@]}" || (($? == 3))
+    touch "$folder/ended"
   fi
   [[ -e $folder/scene.toml ]] || return 0
   for step in 0.001 0.002 0.005; do
