@@ -143,7 +143,7 @@ Status StressJudge::thigmotaxis() const {
 
 Status StressJudge::ended() const {
   const ExpectSettings& expect = scene_.expect;
-  if (const Status root = root_cause(); !root.ok()) {
+  if (Status root = root_cause(); !root.ok()) {
     return root;
   }
   const double depth = std::max(figures_.penetration, figures_.path_penetration);

@@ -108,7 +108,7 @@ H5::DataType choice_type(const std::vector<std::string>& names) {
     auto value = static_cast<std::uint8_t>(k);
     type.insert(names[k], &value);
   }
-  return type;
+  return H5::DataType(type.getId());
 }
 
 }  // namespace hagfish

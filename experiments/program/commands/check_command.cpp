@@ -68,7 +68,7 @@ int check(const CheckOptions& options) {
   int code = exit_code::done;
   for (const std::string& file : options.logs) {
     if (options.logs.size() > 1) {
-      fmt::print("{}{}:\n", &file == &options.logs[0] ? "" : "\n", printable(file));
+      fmt::print("{}{}:\n", &file == options.logs.data() ? "" : "\n", printable(file));
     }
     try {
       code = std::max(code, check_log(file, options, table));

@@ -149,7 +149,7 @@ int info(const InfoOptions& options) {
       continue;
     }
     if (options.logs.size() > 1)
-      fmt::print("{}{}:\n", &file == &options.logs[0] ? "" : "\n", printable(file));
+      fmt::print("{}{}:\n", &file == options.logs.data() ? "" : "\n", printable(file));
     print_info(info);
   }
   if (options.json)

@@ -141,8 +141,8 @@ def one_of_each(rows: list[Row]) -> list[Row]:
 
 
 def least_served(rows: list[Row]) -> int:
-    """By any of these programs and either law, of the ten animals that no search saw."""
-    return min(int(row[f"unseen_by_{law}"]) for row in rows for law in LAWS)
+    """By any of these programs that was found and either law, of the ten animals that no search saw."""
+    return min(int(row[f"unseen_by_{law}"]) for row in rows for law in LAWS if row["found"] == "yes")
 
 
 def beside_table(rows: list[Row]) -> Cells:
@@ -167,9 +167,10 @@ def share(rows: list[Row]) -> str:
 
 def figures_table(rows: list[Row], others: list[Row]) -> Cells:
     """What sentences of the page say and no other table has."""
-    small = [row for row in rows if not row["animal"] and row["knot_wanted"] in SEEN]
-    slender = [row for row in rows if row["animal"]]
-    asked = [row for row in rows if row["for_animals"] == "yes" and row["found"] == "yes"]
+    asked = [row for row in rows if row["for_animals"] == "yes"]
+    own = [row for row in rows if row["for_animals"] == "no"]
+    small = [row for row in own if not row["animal"] and row["knot_wanted"] in SEEN]
+    slender = [row for row in own if row["animal"]]
     longest = lambda some: str(math.ceil(max(float(row["cpu_s"]) for row in some if row["found"] == "yes")))
     return ["figure", "value"], [
         ["small knots that were found", share(small)],
@@ -178,6 +179,7 @@ def figures_table(rows: list[Row], others: list[Row]) -> Cells:
         ["slender animal's knots: longest search, s", longest(slender)],
         ["slender animal's knots by name", ", ".join(row["knot_wanted"] for row in one_of_each(slender))],
         ["random animals with a 4_1", share(others)],
+        ["programs for other animals that were found", share(asked)],
         ["unseen animals that a program for others serves, at least", str(least_served(asked))]]
 
 
