@@ -43,7 +43,7 @@ bool clamped(const Start& start) {
 Start knotted_start(const std::string& log, TimeRule rule) {
   const LogContents contents(log);
   const auto slide = static_cast<std::int64_t>(Phase::slide);
-  const auto [first, last] = std::ranges::equal_range(contents.phase, slide);
+  const auto [first, last] = std::equal_range(contents.phase.begin(), contents.phase.end(), slide);
   if (first == last) {
     throw FileError(log + ": has no slide of the knot");
   }

@@ -39,6 +39,7 @@ PYBIND11_MODULE(_core, module) {
   // Kept for the life of the interpreter, as pybind11 keeps its own exceptions.
   static const py::handle step_error =
       py::exception<StepError>(module, "StepError", PyExc_RuntimeError).release();
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 gives it so
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
