@@ -27,7 +27,7 @@ std::string path_of(const char* name, const py::object& given, const char* wante
   const bool is_path = py::isinstance<py::str>(given) || py::isinstance<py::bytes>(given) ||
                        py::isinstance(given, os.attr("PathLike"));
   if (!is_path) refuse(name, given, wanted);
-  const auto path = os.attr("fsencode")(given).cast<std::string>();
+  auto path = os.attr("fsencode")(given).cast<std::string>();
   if (path.empty()) throw py::value_error(fmt::format("{} = '': {}", name, wanted));
   if (path.find('\0') != std::string::npos) {
     throw py::value_error(fmt::format("{} has a byte 0: {}", name, wanted));

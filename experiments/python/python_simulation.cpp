@@ -23,7 +23,7 @@ constexpr int signal_stride = 64;
 ResolvedScene resolve(const PythonRun& run) {
   std::vector<std::string> set = run.set;
   if (!run.law.is_none()) set.emplace_back("controller.law=own");
-  const ResolvedScene resolved = scene_argument(run.scene, set);
+  ResolvedScene resolved = scene_argument(run.scene, set);
   require_settings_act(resolved.scene, run.set);
   return resolved;
 }
@@ -37,7 +37,7 @@ ResolvedScene changed(const ResolvedScene& resolved, const std::vector<std::stri
 /// What Python raised, in a line: without the traceback, which its caller sees.
 std::string line_of(const py::error_already_set& error) {
   std::string text = Py_TYPE(error.value().ptr())->tp_name;
-  const py::object words = py::reinterpret_steal<py::object>(PyObject_Str(error.value().ptr()));
+  const auto words = py::reinterpret_steal<py::object>(PyObject_Str(error.value().ptr()));
   if (!words) {
     PyErr_Clear();
     return text;
