@@ -25,10 +25,10 @@ RANDOM = "drawn at random"  # in the names of such animals
 # Kinds of animals that tie it. Hagfish: A. Haney and T. Uyeno in New Scientist, 6 January 2020, and the paper. Morays: "A moray's many
 # knots", of Gymnothorax prasinus, who also tie two bulkier knots that have no name here.
 SEEN = {"3_1": "hagfish, morays", "4_1": "hagfish, morays", "5_1": "morays", "5_2": "hagfish"}
-SIZE, COLUMNS = "420x360", 4
+SIZE, PANELS = "420x360", 4  # of the picture of a knot; in a row
 STEPS = ("0.001", "0.002", "0.005")  # s, of the audited runs
 KEPT = ["knot_wanted", "seed", "found", "tries", "tied_in_soft_body", "try", "slower", "starts", "starts_by_eq6", "starts_by_reflex", "cpu_s",
-        "wall_s", "tighten_from_s", "slide_distance_cm", "release_from_s", "free_from_s", "largest_active_dyn_cm",
+        "wall_s", "slide_from_s", "slide_distance_cm", "both_ends_percent", "release_from_s", "free_from_s", "largest_active_dyn_cm",
         "largest_thigmotaxis_dyn_cm", "work_active_erg", "penetration_cm"]
 LAWS = ("eq6", "reflex")
 OF_LOG = ["length_cm", "body_in_knot_cm", "body_in_knot_diameters"]
@@ -53,7 +53,7 @@ def served(folder: Path, law: str) -> str:
 
 
 def without_result(folder: Path) -> Row:
-    """What there is of a search that wrote no result.csv: no path could be tightened."""
+    """What there is of a search that wrote no result.csv: no path that tied the knot was led to its end."""
     lines = {name: (folder / f"{name}.csv").read_text(encoding="utf-8").splitlines() for name in ("tries", "candidates", "times")}
     wall, cpu = lines["times"][-1].split(",")
     return {"found": "no", "tries": str(len(lines["tries"])), "tied_in_soft_body": str(len(lines["candidates"])), "cpu_s": cpu, "wall_s": wall}
@@ -115,8 +115,9 @@ COLUMNS: dict[str, Callable[[Row], str]] = {  # of tables, by heading
     "found": of("found"), "CPU time, s": figure("cpu_s"), "clock, s": figure("wall_s"), "paths tried": of("tries"),
     "paths that tied it": of("tied_in_soft_body"), "starts, Eq. 6": lambda row: passed(row, "eq6"),
     "starts, reflex": lambda row: passed(row, "reflex"), "of ten, Eq. 6": of("unseen_by_eq6"), "of ten, reflex": of("unseen_by_reflex"),
-    "length, cm": figure("length_cm"), "times as slow": figure("slower"), "slides from, s": figure("tighten_from_s"),
-    "head end of the knot, cm": figure("slide_distance_cm", 2), "untied at, s": figure("free_from_s"),
+    "length, cm": figure("length_cm"), "times as slow": figure("slower"), "slides from, s": figure("slide_from_s"),
+    "head end of the knot, cm": figure("slide_distance_cm", 2), "share of a slide of both ends, %": figure("both_ends_percent"),
+    "untied at, s": figure("free_from_s"),
     "largest torque of f_thigmo, dyn cm": figure("largest_thigmotaxis_dyn_cm", 2),
     "work of active torques, erg": figure("work_active_erg", 2), "body in the knot, cm": figure("body_in_knot_cm"),
     "in mean diameters": figure("body_in_knot_diameters"), "largest active torque, dyn cm": figure("largest_active_dyn_cm", 2),
@@ -195,7 +196,8 @@ def page_tables(every: list[Row]) -> dict[str, Cells]:
     return {"found": table(rows, [*SEARCH, *cost, "paths that tied it", "starts, Eq. 6", "starts, reflex"]),
             "gallery": table(one_of_each(rows), ["knot", "animal", "body in the knot, cm", "in mean diameters",
                                                  "largest active torque, dyn cm", "who is seen to tie it"]),
-            "needs": table(found, [*SEARCH, "times as slow", "slides from, s", "head end of the knot, cm", "untied at, s",
+            "needs": table(found, [*SEARCH, "times as slow", "slides from, s", "head end of the knot, cm",
+                                   "share of a slide of both ends, %", "untied at, s",
                                    "largest torque of f_thigmo, dyn cm", "work of active torques, erg", *AUDITS]),
             "unseen": table([row for row in found if row["unseen_by_eq6"]], [*SEARCH, "of ten, Eq. 6", "of ten, reflex"]),
             "beside": beside_table(rows),
@@ -205,8 +207,8 @@ def page_tables(every: list[Row]) -> dict[str, Cells]:
 
 def draw_gallery(folder: Path, rows: list[Row], out: Path) -> None:
     kept = one_of_each([row for row in rows if RANDOM not in row["animal"]])
-    figure, axes = plots.plt.subplots(math.ceil(len(kept) / COLUMNS), COLUMNS,
-                                      figsize=(11, 2.3 * math.ceil(len(kept) / COLUMNS)), squeeze=False)
+    figure, axes = plots.plt.subplots(math.ceil(len(kept) / PANELS), PANELS,
+                                      figsize=(11, 2.3 * math.ceil(len(kept) / PANELS)), squeeze=False)
     for panel in axes.flat:
         panel.set_axis_off()
     for panel, row in zip(axes.flat, kept):
