@@ -25,7 +25,8 @@ RANDOM = "drawn at random"  # in the names of such animals
 # Kinds of animals that tie it. Hagfish: A. Haney and T. Uyeno in New Scientist, 6 January 2020, and the paper. Morays: "A moray's many
 # knots", of Gymnothorax prasinus, who also tie two bulkier knots that have no name here.
 SEEN = {"3_1": "hagfish, morays", "4_1": "hagfish, morays", "5_1": "morays", "5_2": "hagfish"}
-SIZE, PANELS = "420x360", 4  # of the picture of a knot; in a row
+SIZE = "420x360"  # pixels of a picture
+PANELS = 4  # pictures in a row
 STEPS = ("0.001", "0.002", "0.005")  # s, of the audited runs
 KEPT = ["knot_wanted", "seed", "found", "tries", "tied_in_soft_body", "try", "slower", "starts", "starts_by_eq6", "starts_by_reflex", "cpu_s",
         "wall_s", "slide_from_s", "slide_distance_cm", "both_ends_percent", "release_from_s", "free_from_s", "largest_active_dyn_cm",
@@ -53,7 +54,7 @@ def served(folder: Path, law: str) -> str:
 
 
 def without_result(folder: Path) -> Row:
-    """What there is of a search that wrote no result.csv: no path that tied the knot was led to its end."""
+    """What there is of a search that wrote no result.csv: no path that tied the knot made a program."""
     lines = {name: (folder / f"{name}.csv").read_text(encoding="utf-8").splitlines() for name in ("tries", "candidates", "times")}
     wall, cpu = lines["times"][-1].split(",")
     return {"found": "no", "tries": str(len(lines["tries"])), "tied_in_soft_body": str(len(lines["candidates"])), "cpu_s": cpu, "wall_s": wall}
@@ -142,7 +143,7 @@ def one_of_each(rows: list[Row]) -> list[Row]:
 
 
 def least_served(rows: list[Row]) -> int:
-    """By any of these programs that was found and either law, of the ten animals that no search saw."""
+    """Of the ten animals that no search saw, by the law and the found program that serve fewest."""
     return min(int(row[f"unseen_by_{law}"]) for row in rows for law in LAWS if row["found"] == "yes")
 
 

@@ -17,6 +17,15 @@ def test_no_two_modules_have_one_name() -> None:
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_a_module_gives_each_name_once(path: Path) -> None:
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    targets = [target for line in body if isinstance(line, (ast.Assign, ast.AnnAssign)) for target in getattr(line, "targets", None) or [line.target]]
+    assigned = [name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name) and isinstance(name.ctx, ast.Store)]
+    names = assigned + [line.name for line in body if isinstance(line, (ast.FunctionDef, ast.ClassDef))]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_names_of_other_modules_exist(path: Path) -> None:
     tree = ast.parse(path.read_text(encoding="utf-8"))
     imported = {alias.asname or alias.name: alias.name for node in ast.walk(tree) if isinstance(node, ast.Import)
