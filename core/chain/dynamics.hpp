@@ -107,7 +107,7 @@ void kinetic_energies(const Model& model, const State& state, Eigen::VectorXd& e
 
 /// A symmetric operator about a body's centre: plain 1 + along aa' + side ss', with a and s the
 /// body's X and Y axes. Inertia and drag have this form, in which a step assembles and applies
-/// them: body_inertia and drag_operator, as matrices, are what the tests hold that to.
+/// them. body_inertia and drag_operator are the same as matrices, for the step on dense ones.
 struct AxisOperator {
   double plain = 0, along = 0, side = 0;
 

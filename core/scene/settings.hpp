@@ -148,9 +148,9 @@ struct ScriptSettings {
   unsigned noise_seed = 1;  ///< number of the draw
 };
 
-/// How the animal's own torques bend it, where the script is a curvature program (addition): each
-/// hinge is pulled towards its angle in a rest shape. While the knot forms, the program is the rest
-/// shape; then muscle tone follows the shape that the knot takes, until release lets it go.
+/// How the animal's own torques bend it (addition): each hinge is pulled towards its angle in a
+/// rest shape. While the knot forms, a curvature program is the rest shape; then muscle tone
+/// follows the shape that the knot takes, until release lets it go.
 struct ActiveSettings {
   double stiffness = 0;   ///< B_a towards the rest shape, dyn cm^2: per hinge, over hinge_span()
   double tone_time = 0;   ///< time constant by which the rest shape follows the body, tau, s
@@ -164,7 +164,7 @@ struct ActiveSettings {
 /// Muscles that make the animal's torques (addition; core/chain/muscle.hpp).
 struct MuscleSettings {
   bool present = false;  ///< the specimen's: the activations that the torques take are logged
-  /// Time constant by which a muscle follows its excitation, s (law muscles).
+  /// Time constant by which a muscle follows its excitation, s (laws muscles, reflex_muscles).
   double activation_time = 0;
 };
 

@@ -115,9 +115,6 @@ struct Parts {
   ContactSearch search;
   ContactSet contacts;
   std::vector<SplineSegment> segments;
-  std::vector<Row> rows;
-  ArticulatedFactor factor;
-  Eigen::VectorXd base, reaction;
   RowColumns columns;
   BoxQp qp;
 };
@@ -172,50 +169,11 @@ void add_prescribing(const std::string& name, const std::shared_ptr<Parts>& part
 void add_core_parts(const std::shared_ptr<Start>& start) {
   const auto parts = std::make_shared<Parts>(start);
   const int n = start->model.body_count();
-  const auto part = [&](const std::string& name, void (*work)(Parts&)) {
-    add("core", name, n, [parts, work] { work(*parts); });
-  };
-  part("kinematics", [](Parts& p) {
-    update_positions(p.start->model, p.record.after.state.q, p.record.after.observation.kin);
-    update_velocities(p.start->model, p.record.after.state.qdot, p.record.after.observation.kin);
-  });
-  part("mass_matrix", [](Parts& p) {  // dense, for comparison: a step never forms it
-    const Kinematics& kin = p.record.after.observation.kin;
-    const StepOperator op{body_inertias(p.start->model, kin),
-                          Eigen::VectorXd::Zero(p.start->model.nv())};
-    benchmark::DoNotOptimize(dense(p.start->model, kin, op));
-  });
-  part("bias", [](Parts& p) {
-    const Kinematics& kin = p.record.after.observation.kin;
-    benchmark::DoNotOptimize(
-        generalised_force(p.start->model, kin, bias_wrench(p.start->model, kin, motion_of(kin))));
-  });
-  part("system", [](Parts& p) {  // Eq. 1 assembled, factorised and solved
-    const Kinematics& kin = p.record.after.observation.kin;
-    StepSystem& system = p.record.solution.system;
-    assemble_step_system(p.start->model, p.record.after.state,
-                         {kin.twist, kin.centre_velocity, kin.twist}, kin, p.record.control.tip,
-                         {p.start->scene.time.step}, system);
-    p.factor.factorise(p.start->model, kin, system.op, p.sim.solver.problem().prescribed);
-    p.factor.solve(p.start->model, kin, system.wrench, system.joint, p.base,
-                   p.record.solution.twist, p.reaction);
-  });
-  part("contact", [](Parts& p) {  // to and fro, as a search saves its work where nothing moves
+  add("core", "contact", n, [parts] {  // to and fro, as a search saves its work where nothing moves
+    Parts& p = *parts;
     p.pose = 1 - p.pose;
     update_spline(p.start->model, p.centre[p.pose], p.segments);
     find_contacts(p.segments, p.start->scene.contact, 0, p.search, p.contacts);
-  });
-  part("rows", [](Parts& p) {
-    const ObservedState& at = p.record.after;
-    const StepInput in{p.start->model, p.start->scene, at.state, at.observation, p.record.control};
-    gather_rows(in, start_of(in), p.sim.solver.warm, p.rows);
-  });
-  part("dual", [](Parts& p) {
-    const StepSolution& step = p.record.solution;
-    assemble_dual(p.start->model, p.record.after.observation.kin, p.sim.solver.problem().factor,
-                  std::span(step.rows).subspan(static_cast<std::size_t>(step.prescribed)),
-                  p.sim.solver.problem().base, p.sim.solver.problem().base_bodies(), p.columns,
-                  p.qp);
   });
   add_prescribing("prescribe_nothing", parts, [](const Row&) { return false; });
   add_prescribing("prescribe_head", parts,
@@ -228,28 +186,6 @@ void add_core_parts(const std::shared_ptr<Start>& start) {
           solver->solve(parts->sim.solver.problem().qp, parts->sim.solver.problem().start));
     });
   }
-}
-
-void add_mujoco_parts(const std::shared_ptr<Start>& start) {
-  const auto mirror = std::make_shared<MujocoModel>(mirror_of(*start));
-  const auto part = [&](const std::string& name, void (*work)(const mjModel*, mjData*)) {
-    add("mujoco", name, start->model.body_count(),
-        [mirror, work] { work(mirror->model(), mirror->data()); });
-  };
-  part("kinematics", [](const mjModel* m, mjData* d) {
-    mj_kinematics(m, d);
-    mj_comPos(m, d);
-    mj_comVel(m, d);
-  });
-  part("mass_matrix", [](const mjModel* m, mjData* d) { mj_crb(m, d); });
-  part("bias", [](const mjModel* m, mjData* d) { mj_rne(m, d, 0, d->qfrc_bias); });
-  part("system", [](const mjModel* m, mjData* d) {
-    mj_crb(m, d);
-    mj_factorM(m, d);
-    mj_fwdAcceleration(m, d);
-  });
-  part("contact", [](const mjModel* m, mjData* d) { mj_collision(m, d); });
-  part("rows", [](const mjModel* m, mjData* d) { mj_makeConstraint(m, d); });
 }
 
 }  // namespace
@@ -265,11 +201,8 @@ int main(int argc, char** argv) {
       const auto knotted = std::make_shared<Start>(knotted_start(argv[k]));
       const auto free = std::make_shared<Start>(free_start(*knotted));
       add_core_parts(knotted);
-      add_mujoco_parts(knotted);
       for (const int restart : restarts) {
-        for (const std::string& name : box_qp_solver_names()) {
-          add_core_step("step_knotted_" + name, knotted, name, restart);
-        }
+        add_core_step("step_knotted_active-set", knotted, "active-set", restart);
       }
       for (const MujocoSetting& setting : mujoco_settings()) {
         const double residual = mujoco_residual(*knotted, setting, restarts.front());

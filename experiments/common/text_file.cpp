@@ -3,15 +3,16 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 namespace hagfish {
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw FileError(file.string() + ": cannot be read");
-  return text;
+  std::ostringstream text;
+  text << stream.rdbuf();  // fails where there is nothing to read
+  if (!stream || text.bad()) throw FileError(file.string() + ": cannot be read");
+  return text.str();
 }
 
 void TextFile::write(const std::string& text) {

@@ -10,7 +10,7 @@ namespace hagfish {
 
 inline constexpr const char* force_help = "replace an existing file";
 
-/// All of a file that this program wrote. Throws FileError where it cannot be read.
+/// All of a file. Throws FileError where it cannot be read.
 std::string text_of(const std::filesystem::path& file);
 
 /// Reserves `file` before the work, as OutputFile does and throwing as it does.

@@ -46,7 +46,7 @@ FIGURES = {  # unit, meaning
     "work_tip_erg": ("erg", "of the scripted force on the tail, in all"),
     "work_active_erg": ("erg", "of the muscles, in all"),
     "work_thigmotaxis_erg": ("erg", "of f_thigmo, in all"),
-    "dissipated_erg": ("erg", "lost to water drag and joint damping, in all"),
+    "dissipated_erg": ("erg", "lost to water drag and damping of joints and flesh, in all"),
 }
 
 

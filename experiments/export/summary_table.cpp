@@ -89,7 +89,7 @@ ExportTable phases_table(const LogContents& log, bool si) {
        {"work_tip", energy, "of the scripted force on the tail, in this phase"},
        {"work_active", energy, "of the muscles, in this phase"},
        {"work_thigmotaxis", energy, "of f_thigmo, in this phase"},
-       {"dissipated", energy, "lost to water drag and joint damping, in this phase"}},
+       {"dissipated", energy, "lost to water drag and damping of joints and flesh, in this phase"}},
       si);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Hdf5Reader::Rows thigmotaxis = log.h5.rows("/mean/forces/thigmotaxis");

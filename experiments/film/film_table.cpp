@@ -15,6 +15,7 @@
 #include "core/input/files/text_file.hpp"
 #include "core/input/input_text.hpp"
 #include "core/log/hdf5/hdf5_error.hpp"
+#include "experiments/common/text_file.hpp"
 
 namespace hagfish {
 namespace {
@@ -24,14 +25,6 @@ constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 /// Of a film, s or a unit of length: what is fitted squares it.
 constexpr double largest_number = 1e9;
-
-std::string whole_text(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw FileError(file + ": cannot be read");
-  return text.str();
-}
 
 std::string lower(std::string_view text) {
   std::string out;
@@ -403,7 +396,7 @@ FilmTable read_film_table(const std::string& file, const FilmReading& reading) {
   if (std::filesystem::file_size(file, error) > most_bytes || error) {
     throw FileError(file + ": larger than 1 GiB");
   }
-  std::string text = whole_text(file);
+  std::string text = text_of(file);
   if (text.starts_with(hdf5_signature)) return read_sleap(file, reading);
   return TableReader(DelimitedText(std::move(text)), file, reading).read();
 }

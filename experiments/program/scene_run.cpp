@@ -87,7 +87,7 @@ int take_run(const Model& model, const Scene& scene, Simulation sim, const RunOp
     return ending.code;
   }
   if (!options.quiet) {
-    say("{}: complete after {:.1f} s\n", options.out, progress.elapsed());
+    say("{}: complete after {:.1f} s\n", printable(options.out), progress.elapsed());
   }
   return exit_code::done;
 }

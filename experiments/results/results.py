@@ -135,7 +135,7 @@ def stamp(name: str) -> list[str]:
         if shares else ".")
     links = lambda files: ", ".join(f"[{file.rpartition('/')[2]}]({file})" for file in files)
     data = [path.name for path in data_of(name)]
-    drawn = [f"Figures are drawn from {links(data)}."] if data else []
+    drawn = [f"{'Figures are drawn from' if FIGURE.search(text_of(name)) else 'Other data:'} {links(data)}."] if data else []
     return [*said, again, f"Tables are CSV files: {links(shown_by(name))}.", *drawn]
 
 

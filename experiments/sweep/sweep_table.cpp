@@ -96,7 +96,7 @@ SweepTable::SweepTable(const fs::path& folder, const SweepPart& part, std::size_
   table_ = folder / ("table" + suffix);
   times_ = folder / ("times" + suffix);
   std::error_code error;
-  if (fs::exists(table_, error)) {
+  if (fs::is_regular_file(table_, error)) {
     done_ = cells_;
     return;
   }

@@ -51,6 +51,18 @@ def test_each_table_says_where_it_was_measured(name):
         assert any(results.MEASURED.match(note) for note in results.read_table(path).notes), path.name
 
 
+# Columns of what failed, where nothing did.
+EMPTY = {("living_claims.csv", "what else became of it"), ("stability_starts.csv", "otherwise")}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_column_is_empty(name):
+    for path in results.tables_of(name):
+        table = results.read_table(path)
+        for heading, *cells in zip(table.head, *table.rows):
+            assert any(cell not in ("", "-") for cell in cells) or (path.name, heading) in EMPTY, (path.name, heading)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_each_csv_of_a_page_is_shown(name):
     there = {path.name for path in (results.RESULTS / name).glob("*.csv")}
@@ -152,7 +164,7 @@ def test_a_study_is_adopted_and_ages(house):
     (house / "s/tables/p.csv").write_text(",a\nx,1\ny,2|3\n")
     (house / "s/tables/d.csv").write_text("b\n1\n")
     assert results.adopt("p", house / "s", "0.2.0 abcdef1", 61) == []
-    assert "Figures are drawn from [d.csv](d.csv)." in page.read_text() and "abcdef1" in (house / "experiments/results/p/d.csv").read_text()
+    assert "Other data: [d.csv](d.csv)." in page.read_text() and "abcdef1" in (house / "experiments/results/p/d.csv").read_text()
     assert "| y | 2\\|3 |" in page.read_text() and "took 1 min 1 s" in page.read_text()
     assert "| y | 2\\|3 |" in (house / "README.md").read_text() and "| x |" not in (house / "README.md").read_text()
     (house / "s/tables/p.csv").write_text(",a\nx,1.5\ny,2|3\n")

@@ -8,7 +8,7 @@
 
 namespace hagfish {
 
-/// Checkpoints hold forces in this order: a new kind comes last.
+/// What a row is of. A step sums its forces in this order.
 enum class RowKind : std::uint8_t {
   head,
   limit,

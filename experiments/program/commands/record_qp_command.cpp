@@ -109,7 +109,7 @@ int record_qp(const RecordQpOptions& options, const std::string& typed) {
                                recorder.left_out()));
   if (!failure.empty()) {
     std::fflush(stdout);
-    say("hagfish: {}: the run failed: {}\n", options.out, failure);
+    say("hagfish: {}: the run failed: {}\n", printable(options.out), failure);
     return exit_code::failed;
   }
   return exit_code::done;

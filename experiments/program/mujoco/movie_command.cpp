@@ -87,7 +87,7 @@ int movie(const MovieOptions& options) {
       if (interrupted()) throw std::runtime_error(options.out + ": interrupted");
       const std::string words = words_of(log, types[frames[k]], frames[k]);
       film.add(pictures.draw(*renderer, frames[k], view, words));
-      if (progress) say("\r{}: picture {} of {}", options.out, k + 1, frames.size());
+      if (progress) say("\r{}: picture {} of {}", printable(options.out), k + 1, frames.size());
     }
     film.finish();
   } catch (...) {

@@ -19,7 +19,7 @@ from hagfish_log import HagfishLog, LogError
 from log_pictures import take_pictures
 from script import run_script
 
-LIVING = Path(__file__).resolve().parents[1] / "living/living.csv"
+LIVING, SURE = (Path(__file__).resolve().parents[1] / name for name in ("living/living.csv", "sure/sure.csv"))
 OWN = "Table 1's"  # animal
 RANDOM = "drawn at random"  # in the names of such animals
 # Kinds of animals that tie it. Hagfish: A. Haney and T. Uyeno in New Scientist, 6 January 2020, and the paper. Morays: "A moray's many
@@ -148,19 +148,19 @@ def least_served(rows: list[Row]) -> int:
 
 
 def beside_table(rows: list[Row]) -> Cells:
-    """The programs of data/ as the page `living` has them, and the found ones of the same knots."""
+    """The programs of data/ as the pages `living` and `sure` have them, and the found ones of the same knots."""
     living = tables.read_table(LIVING)
     stated = lambda what, knot: next(row for row in living.rows if row[0].startswith(what))[living.head.index(knot)]
-    larger = lambda torques: max(torques.split("; "), key=float)
+    sure = {row[0].removesuffix(": largest torque of muscles, dyn cm"): row[1] for row in tables.read_table(SURE).rows}
     found = {row["knot_wanted"]: row for row in one_of_each([row for row in rows if not row["animal"]])}
-    lines = []
+    scenes, lines = {knot: scene for scene, knot in plots.SCENES.items()}, []
     for knot in living.head[1:]:
-        lines.append([knot, "of data/", stated("of 10 other animals", knot).split(";")[1].strip(), larger(stated("largest torque of a hinge", knot)),
+        lines.append([knot, "of data/", stated("of 10 other animals", knot).split(";")[1].strip(), number(sure[f"living_{scenes[knot]}"], 2),
                       stated("clamped: way", knot).split(";")[0]])
         if knot in found:
             lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-",
                           number(found[knot]["largest_active_dyn_cm"], 2), number(found[knot]["slide_distance_cm"], 2)])
-    return ["knot", "program", "other animals that it serves, of ten", "largest torque, dyn cm", "head end of the knot, cm"], lines
+    return ["knot", "program", "other animals that it serves, of ten", "largest torque of the muscles, dyn cm", "head end of the knot, cm"], lines
 
 
 def share(rows: list[Row]) -> str:

@@ -35,7 +35,7 @@ def draw(points: list[dict[str, str]], out: Path) -> None:
     axes.axhline(ENOUGH, color=plots.GREY, lw=0.8, ls=":", zorder=0)
     axes.set(xlabel="numbers", ylabel="share of a slide by both ends:\nmedian of the knots, and the least", ylim=(-0.05, None))
     axes.set_xticks(range(len(counts)), [str(count) for count in counts])
-    axes.legend(title="numbers found each, shapes", loc="upper left")
+    axes.legend(title="numbers found every; shapes", loc="upper left")
     plots.save(figure, out)
 
 

@@ -8,7 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
 HAGFISH_WEB=1 bash "$root/experiments/setup.sh"
 wasm=$root/build/web/hagfish.wasm
-command -v npm >/dev/null || { echo "live.sh: npm is not here: install Debian's package npm" >&2; exit 2; }
+command -v npm >/dev/null || { echo "live: npm is not here: install Debian's package npm" >&2; exit 2; }
 npm install --silent --no-audit --no-fund --prefix "$out" @mujoco/mujoco@3.14.0
 mkdir -p "$out/tables"
 "$hagfish" mjcf table1 --out "$out/mjcf" --force

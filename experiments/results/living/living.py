@@ -35,7 +35,7 @@ class Run:
     met: float  # share of sliding steps that meet Eq. 6
     force: float  # median of the sum of the multipliers of Eq. 6 / h while sliding, dyn
     penetration: float
-    torque: dict[str, float]  # largest of a hinge, by phase
+    torque: dict[str, float]  # largest of the muscles at a hinge, by phase
 
 
 def run_of(cell: Cell) -> Run:
@@ -83,7 +83,7 @@ def draw(sweeps: dict[str, dict[str, list[tuple[float, Run]]]], out: Path) -> No
         plots.plain_ticks(panel.xaxis, [value for value, _ in runs])
     axes[0].axvspan(*HAGFISH, color=plots.GRID, lw=0)
     axes[0].text(HAGFISH[0], 15, " by moduli", fontsize=8, va="bottom")
-    axes[0].set(ylabel="largest torque of a hinge while\nthe knot forms, 1000 dyn cm", xlim=(250, 2e6))
+    axes[0].set(ylabel="largest torque of the muscles at a\nhinge while the knot forms, 1000 dyn cm", xlim=(250, 2e6))
     plots.plain_ticks(axes[0].xaxis, [1e3, 1e4, 1e5, 1e6])
     axes[0].set_xticklabels(["10³", "10⁴", "10⁵", "10⁶"])
     plots.plain_ticks(axes[0].yaxis, [20, 50, 100, 200])
@@ -128,7 +128,7 @@ def main_table(folder: Path) -> None:
         ["free, no plate: the same", *map(slid, free)],
         ["deepest penetration at any step, release included, cm", *(f"{max(a.penetration, b.penetration):.4f}" for a, b in zip(held, free))],
         ["sum of λ/h of all rows while sliding, clamped, median, dyn", *(large(run.force) for run in held)],
-        ["largest torque of a hinge, forming; sliding, dyn cm", *(f"{large(run.torque['form'])}; {large(run.torque['slide'])}" for run in held)],
+        ["largest torque of the muscles at a hinge, forming; sliding, dyn cm", *(f"{large(run.torque['form'])}; {large(run.torque['slide'])}" for run in held)],
         ["values of the program: stations x times", *(f"{len(each['stations'])} x {len(each['times'])}" for each in programs)],
         ["of 20 starts with 3 degrees (3_1: 5) of noise on every hinge, clamped: tied, kept and off; of these by both ends; least share, %",
          *map(came_off, runs_of(folder / "heldstart"))],
@@ -146,7 +146,7 @@ def main(folder: Path) -> None:
     main_table(folder)
     claims_table(folder)
     tables.write_table(folder, "living_sweeps", ["what is changed", "knots tied and slid off by both ends",
-                                                 "least share of a slide by both ends, %", "largest torque of a hinge while forming, dyn cm"],
+                                                 "least share of a slide by both ends, %", "largest torque of the muscles at a hinge while forming, dyn cm"],
                        sweep_rows(sweeps))
 
 

@@ -15,7 +15,6 @@ from hagfish_log import HagfishLog
 from script import run_script
 
 STIFFNESSES = ("6e4", "1e5", "3e5")
-PHASES = ("tighten", "slide")  # while the knot is held tight
 KPA = 1e-4  # of dyn/cm²
 
 
@@ -26,22 +25,18 @@ def lens(stiffness: float, radius: float) -> tuple[np.ndarray, np.ndarray]:
     return force, stiffness * np.sqrt(overlap / (4 * radius))
 
 
-def held(log: HagfishLog) -> np.ndarray:
-    return np.flatnonzero(np.isin(log.labels("/trajectory/phase"), PHASES))
-
-
 def main(folder: Path) -> None:
     rows = []
     figure, axes = plots.panels(1, 2, (plots.WIDTH, 2.9), ["largest pressure, frame by frame", "largest at any frame, by place"])
     for scene, knot in plots.SCENES.items():
         look = plots.KNOTS[knot]
         hard = HagfishLog(folder / "runs" / f"{scene}_0.h5")
-        own = np.isin(hard["/contacts/frame"], held(hard)) & (hard["/contacts/spline_b"] >= 0)
+        own = np.isin(hard["/contacts/frame"], hard.in_phase("slide")) & (hard["/contacts/spline_b"] >= 0)
         forces = hard["/contacts/force"][own]
         radius = float(np.median(hard["/model/radius"]))
         for stiffness in STIFFNESSES:
             soft = HagfishLog(folder / "runs" / f"{scene}_{stiffness}.h5")
-            frames = held(soft)
+            frames = soft.in_phase("slide")
             force, pressure = lens(float(stiffness), radius)
             as_hard = np.interp(forces, force, pressure) * KPA
             beyond = 100 * float((forces > force[-1]).mean()) if forces.size else 0
@@ -58,7 +53,7 @@ def main(folder: Path) -> None:
                 row += ["-"] * 4
             rows.append([*row, f"{np.median(forces) * 1e-5:.3f}", f"{forces.max() * 1e-5:.2f}", f"{np.median(as_hard):.1f}",
                          f"{as_hard.max():.1f}", f"{beyond:.0f}"])
-    for one, name in zip(axes, ("time since the knot is tightened, s", "arc length from the head, cm")):
+    for one, name in zip(axes, ("time of the slide, s", "arc length from the head, cm")):
         one.set(xlabel=name, ylabel="pressure, kPa", ylim=(0, None))
     plots.legend_above(figure, axes[0].lines, 4, 0.1)
     plots.save(figure, folder / "pressures.png")

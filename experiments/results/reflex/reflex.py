@@ -30,10 +30,10 @@ USUAL, FINE_MESH, FINE_STEP, FINEST = "100; 2", "200; 2", "100; 1", "200; 1"  # 
 STIFFNESS, RIGIDITY, DAMPING = 5e5, 2e5, 3e3  # B_a of living_overhand; B and C of the specimen: dyn cm^2, dyn cm^2, dyn cm^2 s
 NAMES = {"delay": "senses late by, s", "noise": "senses wrong by, share of each angle", "bodies": "bodies", "step": "step, s",
          "drag": "drag across the body, g/(s cm)", "muscle": "muscles B_a, dyn cm²", "damping": "damping C, dyn cm² s",
-         "stiffness": "body EI, dyn cm²", "animals": "other animals", "starts": "starts with 3° of noise"}
+         "stiffness": "body EI, dyn cm²", "animals": "other animals that tied", "starts": "starts with 3° of noise that tied"}
 SHIFT = 0.0106  # cm: the scenes' 2.5e-4 L
 UNTIED = "not tied"
-CHANGES = {"shift": "Δ, cm", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"], "bending_damping": NAMES["damping"],
+CHANGES = {"shift": "Δ", "delay": NAMES["delay"], "noise": NAMES["noise"], "normal": NAMES["drag"], "bending_damping": NAMES["damping"],
            "noise_deg": "starts with noise, degrees"}
 SIZE, LEGEND = "560x500", 80  # pixels of a picture, and of these its legend's height
 LOOSE = {"tighten": "where the knot is first there", "form": "a second before that"}
@@ -150,7 +150,7 @@ def robust_table(rows: list[Row]) -> Cells:
     for study, name in NAMES.items():
         own = pick(rows, study=study)
         if study in ("animals", "starts"):
-            body += [[f"clamped, {name}", *(f"{slid_of(tied(own, knot))} tied" for knot in KNOTS)]] if own else []
+            body += [[f"clamped, {name}", *(slid_of(tied(own, knot)) for knot in KNOTS)]] if own else []
             continue
         for setting in dict.fromkeys(row.setting for row in own):
             body.append([f"clamped, {name}: {setting}",
@@ -162,8 +162,8 @@ def robust_table(rows: list[Row]) -> Cells:
         body.append([f"free, {CHANGES.get(name, name)}: {value}" if value else f"free, {setting}",
                      *(came(each[0]) if len(each) == 1 else slid_of(each) for each in runs)])
     if programs := pick(rows, study="free_programs"):
-        body.append(["free, programs with noise of 0.2 rad/L",
-                     *(f"{slid_of(tied(programs, knot))} tied" for knot in KNOTS)])
+        body.append(["free, programs with noise of 0.2 rad/L that tied",
+                     *(slid_of(tied(programs, knot)) for knot in KNOTS)])
     return ["3_1 to 5_2, h = 5 ms", *KNOTS], body
 
 

@@ -69,7 +69,7 @@ def turns(log: HagfishLog, frame: int) -> np.ndarray:
 
 def swept(log: HagfishLog, frames: np.ndarray) -> tuple[float, float]:
     """Share of the body's length, in rings of a centimetre, and of its skin, in twelfths of a ring, that pressed on skin in these
-    frames. Contacts of the log are single points along a strip: the second share is a lower bound."""
+    frames. Contacts of the log are points: a twelfth counts whole if one lies in it."""
     count, length = log["/model/length"].size, log["/model/length"].sum()
     rings = int(np.ceil(length / RING))
     touched = np.zeros((rings, SECTORS), dtype=bool)

@@ -22,10 +22,10 @@ from stability_picture import DARK, LOOKS, cell_grid, draw_cell, draw_summary
 from tables import read_csv, write_table
 
 CELL = 0.3  # inches, of a cell's side
-# Without the watch beside MuJoCo, which has none.
+# Without the guard on energy beside MuJoCo, which has none.
 METHODS = ["default", "violated", "baumgarte_0.2", "baumgarte_1", "hard_thigmotaxis", "ipopt", "no_watch", "midpoint", "mujoco_euler",
            "mujoco_hard", "mujoco_implicit", "mujoco_rk4"]
-TITLES = {"no_watch": "Euler, no watch", "midpoint": "midpoint, no watch", "baumgarte_0.2": "Baumgarte 0.2",
+TITLES = {"no_watch": "Euler, no guard", "midpoint": "midpoint, no guard", "baumgarte_0.2": "Baumgarte 0.2",
           "baumgarte_1": "Baumgarte 1", "hard_thigmotaxis": "hard Eq. 6",
           "ipopt": "Ipopt", "mujoco_euler": "MuJoCo Euler", "mujoco_hard": "MuJoCo Euler, stiff", "mujoco_implicit": "MuJoCo implicit",
           "mujoco_rk4": "MuJoCo RK4"}

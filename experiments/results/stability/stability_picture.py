@@ -23,7 +23,7 @@ LOOKS = {"ok": ("", "#e8f4f0"), "energy gain": ("E", "#ee8866"), "non-finite": (
          "not applicable": ("-", "#ffffff")}
 DARK = {"non-finite", "tunnelled", "solver failed"}
 STEPS = (0.2, 0.5, 1, 2, 5, 10, 20, 50)  # ms, of the study
-GROUPS = ("Euler, no watch", "MuJoCo Euler")  # where those without a watch begin, and MuJoCo's, which has none
+GROUPS = ("Euler, no guard", "MuJoCo Euler")  # where those without a guard begin, and MuJoCo's, which has none
 
 
 def cell_grid(axes: Any, rows: list[str], columns: list[str]) -> None:

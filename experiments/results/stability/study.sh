@@ -6,7 +6,7 @@
 set -euo pipefail
 scenes=$(cd "$(dirname "${BASH_SOURCE[0]}")/scenes" && pwd)
 export scenes
-inputs=("$scenes"/*.toml)
+inputs=("$scenes"/*.toml "$scenes/../cells.toml")
 source "$(dirname "${BASH_SOURCE[0]}")/../jobs.sh"
 export cpu_limit=60 wall_limit=300 # s, of a cell
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What each part of a step costs at 25 to 400 bodies, with MuJoCo's part beside it in one process.
+# What a step costs at 25 to 400 bodies, with MuJoCo's beside it in one process.
 # Leaves benchmarks.json, which has processor, flags and library versions, and three tables.
 set -euo pipefail
 targets=(hagfish_benchmarks hagfish_overlap)

@@ -279,6 +279,12 @@ def test_how_fast_an_animal_could_tie(tmp_path, monkeypatch):
     assert rows[1][1:] == ["42", f"{lasts / 2:.3g}", f"{lasts / 4:.3g}", "neither"] and [row[0] for row in rows[-3:]] == ["all"] * 3
 
 
+def test_morays_tie_knots_in_the_order_of_the_body_that_they_take():
+    said = next(row[3] for row in read_table(RESULTS / "knot_in_numbers/knot_in_numbers_observed.csv").rows if row[0] == "knots of morays")
+    bodies = [float(body) for body in re.findall(r"([\d.]+) cm", said)]
+    assert said.startswith("the same order") and len(bodies) == 4 and bodies == sorted(bodies)
+
+
 def test_errors_while_tying(tmp_path):
     """Of made-up motions whose errors are of first order in the step and of second in the length of a body."""
     rows = []

@@ -60,7 +60,7 @@ def test_pulls_have_the_spread_of_their_starts_and_meshes(tmp_path, drawn):
 
 
 def test_methods_without_a_watch_stand_beside_mujoco(tmp_path, drawn):
-    head, *rows = ([*row] for row in (["scene", "default", "Euler, no watch", "MuJoCo Euler"], ["whip", "all (50)", "none (energy gain)", "5 (limits)"]))
+    head, *rows = ([*row] for row in (["scene", "default", "Euler, no guard", "MuJoCo Euler"], ["whip", "all (50)", "none (energy gain)", "5 (limits)"]))
     stability_picture.draw_summary(head, rows, Path("x.png"))
     assert [text.get_text() for text in drawn[0].axes[0].texts] == ["50", "none E", "5 L"]
     stability_picture.main(RESULTS / "stability/stability.csv", Path("x.png"))
