@@ -1,7 +1,8 @@
 # shellcheck shell=bash
 # Sourced by a page's study.sh, not run: sets up and builds, and makes the output folder, the script's argument or out/NAME:
 #   bash experiments/results/NAME/study.sh [OUTPUT_FOLDER]
-# Comes after targets=(...), what to build besides the program, if anything. Leaves root, page (its folder), grids (of `hagfish
+# Comes after targets=(...), what to build besides the program, inputs=(...), files that results depend on besides it, and
+# keeps=yes where what another program left is not to go, if any of these. Leaves root, page (its folder), grids (of `hagfish
 # sweep`), out, hagfish (the program), draw and swept. When the script ends, in whatever way, it says what is in out
 # and how long it took; building counts, and what an earlier run of it left does not.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -20,6 +21,13 @@ out=$(cd "$out" && pwd)
 trap elapsed EXIT
 # shellcheck disable=SC2154 # targets may be unset
 bash "$root/experiments/setup.sh" --target hagfish "${targets[@]}"
+# What another program or other inputs left does not mix with this one's.
+made_by=$("$root/build/release/experiments/hagfish" --version; [[ -z ${inputs-} ]] || cat "${inputs[@]}" | cksum)
+if [[ -z ${keeps-} && -e $out/made_by && $(<"$out/made_by") != "$made_by" ]]; then
+  echo "$out was made by another version: starting anew"
+  find "$out" -mindepth 1 -maxdepth 1 ! -name study.txt -exec rm -r {} +
+fi
+echo "$made_by" >"$out/made_by"
 # Serial BLAS, so that runs repeat to the last bit.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 export hagfish=$root/build/release/experiments/hagfish HAGFISH_PROGRAM=$root/build/release/experiments/hagfish # for shell, for Python

@@ -1,19 +1,12 @@
 # shellcheck shell=bash
 # Sourced by the studies of what is no grid of `hagfish sweep`, not run: what common.sh does, and jobs side by side, which go on where they
-# were stopped. Comes after inputs=(...), files that results depend on besides the program, if any. Leaves runs (a folder) and cores besides.
+# were stopped. Leaves runs (a folder) and cores besides.
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 cores=$(cores)
 export runs=$out/runs
 
-# Results of another program or of other inputs do not mix with this one's.
-version=$("$hagfish" --version; [[ -z ${inputs-} ]] || cat "${inputs[@]}" | cksum)
-if [[ -d $runs && $(cat "$runs/version" 2>/dev/null) != "$version" ]]; then
-  echo "$runs was made by another version: starting anew"
-  rm -r "$runs"
-fi
 mkdir -p "$runs"
-echo "$version" >"$runs/version"
 
 # timed NAME REPEATS ARGUMENT...: a command of hagfish that makes the log NAME.h5, and NAME.cpu: user and system time of each repeat, s. A
 # run may fail, or tie another knot: that is a result.

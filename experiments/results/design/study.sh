@@ -5,6 +5,7 @@
 # In the environment KNOTS, SEEDS, LARGE, LARGE_SEEDS, ANIMALS (numbers of random ones), ROBUST and ROBUST_LARGE (knots whose programs must serve
 # other animals) are others, and BEYOND are large knots that the Table 1 animal tries. Stopped, it goes on where it was.
 set -euo pipefail
+keeps=yes # each search names its own program
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 animals=$root/experiments/results/animals.py
 
