@@ -18,6 +18,8 @@ import pandas
 ROOT = Path(__file__).resolve().parents[2]
 HAGFISH = Path(os.environ.get("HAGFISH_PROGRAM", ROOT / "build/release/experiments/hagfish"))
 RUNS = Path(os.environ.get("HAGFISH_TEST_RUNS", f"{tempfile.gettempdir()}/hagfish_runs_{os.getuid()}"))
+# AddressSanitizer stops where HDF5 itself fails, takes memory without bound, and must be loaded before other libraries.
+SANITIZED = HAGFISH.exists() and b"__asan_init" in HAGFISH.read_bytes()
 OLD = 3600  # s after which runs of another program may go: no tests of it are at work any more
 CLOCKS = ("wall_time", "qp_time")  # datasets that no run repeats
 
