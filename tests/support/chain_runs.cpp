@@ -41,13 +41,17 @@ void ChainRun::step(const TipForce& tip) {
   Control control;
   control.clamp_head = scene.clamp_head;
   control.tip = tip;
+  step(control);
+}
+
+void ChainRun::step(const Control& control) {
   seen = observe(model, state, scene);
   if (const Status status = solver_.solve({model, scene, state, seen, control}, last);
       !status.ok()) {
     throw StepError(status);
   }
-  state.qdot = last.qdot;
-  state.q = advance(state.q, state.qdot, scene.time.step);
+  state.q = advance(state.q, last.qdot, scene.time.step);
+  state.qdot = last.next;
   time += scene.time.step;
 }
 

@@ -23,7 +23,9 @@ class ChainRun {
   /// Starts straight and at rest; set `state` for any other start.
   ChainRun(Model chain, Scene of);
 
-  /// One step of scene.time.step, with `tip` on the last body's centre. Throws StepError.
+  /// One step of scene.time.step by `control`, or with `tip` on the last body's centre. Throws
+  /// StepError.
+  void step(const Control& control);
   void step(const TipForce& tip = {});
 
   /// Kinetic, gravity and elastic energy, erg.

@@ -7,12 +7,9 @@
 #include <numbers>
 #include <utility>
 
+#include "core/input/files/scene_reader.hpp"
+
 namespace hagfish {
-namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-}  // namespace
 
 double uniform(Random& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random()) / 0x1p32;
@@ -41,16 +38,8 @@ Eigen::Quaterniond random_rotation(Random& random) {
 }
 
 Specimen table1_specimen() {
-  Specimen fish;
-  fish.name = "Pacific hagfish (Eptatretus stoutii)";
-  fish.length = 42.4;
-  fish.mass = 80;
-  fish.station = {0.2, 0.4, 0.6, 0.8};
-  fish.circumference = {5.6, 5.5, 5.6, 4.3};
-  fish.bending_limit = {21 * degree, 75 * degree, 45 * degree, 51 * degree};
-  fish.bending_span = 0.848;
-  fish.twist_limit = 48 * degree;
-  return fish;
+  static const Specimen read = read_specimen(HAGFISH_DATA_DIR "/specimens/pacific_hagfish.toml");
+  return read;
 }
 
 Scene table1_scene(int bodies) {
@@ -70,6 +59,12 @@ Model table1_hagfish(int bodies) { return make_hagfish(table1_specimen(), table1
 Model cone_hagfish(int bodies) {
   Scene scene = table1_scene(bodies);
   scene.model.bending_limit = BendingLimit::cone;
+  return make_hagfish(table1_specimen(), scene);
+}
+
+Model muscled_hagfish(int bodies) {
+  Scene scene = table1_scene(bodies);
+  scene.muscle.present = true;
   return make_hagfish(table1_specimen(), scene);
 }
 

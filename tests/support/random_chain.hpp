@@ -28,7 +28,7 @@ Eigen::VectorXd random_entries(Random& random, Eigen::Index count, double size =
 /// Unit quaternion, even over all rotations.
 Eigen::Quaterniond random_rotation(Random& random);
 
-/// The paper's Table 1, as data/pacific_hagfish.toml gives it.
+/// The paper's Table 1: data/specimens/pacific_hagfish.toml.
 Specimen table1_specimen();
 /// The Table 1 scene without its script, as data/table1.toml gives it, for `bodies` bodies.
 Scene table1_scene(int bodies = 100);
@@ -36,6 +36,8 @@ Scene table1_scene(int bodies = 100);
 Model table1_hagfish(int bodies = 100);
 /// The same with limits on the total angle of its universal joints.
 Model cone_hagfish(int bodies = 100);
+/// The same with muscles.
+Model muscled_hagfish(int bodies = 100);
 /// `state` with each universal joint bent back, in its plane, to `share` of its cone at most.
 State within_cones(const Model& model, State state, double share = 1);
 

@@ -36,10 +36,15 @@ std::vector<StoredState> stored_states() {
   return states;
 }
 
+StoredState stored_state(const std::string& name) {
+  const std::vector<StoredState> states = stored_states();
+  return states.at(std::ranges::find(states, name, &StoredState::name) - states.begin());
+}
+
 ResolvedScene stored_scene(const std::vector<std::string>& overrides) {
   std::vector<std::string> all{"time.step=" + std::to_string(stored_step)};
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return read_scene(HAGFISH_DATA_DIR "/table1.toml", all);
+  return scene_argument("table1", all);
 }
 
 Simulation resume(const Model& model, const Scene& scene, const StoredState& stored,
@@ -50,6 +55,12 @@ Simulation resume(const Model& model, const Scene& scene, const StoredState& sto
   controller.loose = controller.phase_start;
   return start_from(model, scene, back_end, stored.state, controller,
                     std::llround(controller.phase_start / scene.time.step));
+}
+
+SceneRun resumed(const StoredState& stored, const std::vector<std::string>& overrides) {
+  SceneRun run(stored_scene(overrides));
+  run.sim = resume(run.model, run.scene, stored);
+  return run;
 }
 
 }  // namespace hagfish

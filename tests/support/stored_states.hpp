@@ -3,12 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <string>
 #include <vector>
 
-#include "core/input/files/scene_reader.hpp"
-#include "core/run/simulation.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish {
 
@@ -19,11 +17,12 @@ struct StoredState {
   State state;
 };
 
-/// How tests of every state name and show it.
-inline std::ostream& operator<<(std::ostream& out, const StoredState& s) { return out << s.name; }
+/// How tests of every state name it.
 std::string name_of(const testing::TestParamInfo<StoredState>& info);
 
 std::vector<StoredState> stored_states();
+/// The one called `name`, which must be there.
+StoredState stored_state(const std::string& name);
 
 /// The scene and the animal of that run, at its step: data/table1.toml with `overrides`.
 ResolvedScene stored_scene(const std::vector<std::string>& overrides = {});
@@ -31,5 +30,7 @@ ResolvedScene stored_scene(const std::vector<std::string>& overrides = {});
 /// A simulation that goes on from `stored`, its controller in the right phase.
 Simulation resume(const Model& model, const Scene& scene, const StoredState& stored,
                   const std::string& back_end = "active-set");
+/// The same in stored_scene(overrides).
+SceneRun resumed(const StoredState& stored, const std::vector<std::string>& overrides = {});
 
 }  // namespace hagfish

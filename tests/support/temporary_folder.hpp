@@ -1,8 +1,14 @@
 // A folder for the files of one test.
 #pragma once
 
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <system_error>
 
 namespace hagfish {
 
@@ -10,8 +16,15 @@ namespace hagfish {
 class TemporaryFolder {
  public:
   /// Throws std::system_error where there can be none.
-  TemporaryFolder();
-  ~TemporaryFolder();
+  TemporaryFolder() {
+    std::string name = std::filesystem::path(testing::TempDir()) / "hagfish_XXXXXX";
+    if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code error;  // a folder left behind fails no test
+    std::filesystem::remove_all(path_, error);
+  }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
@@ -19,7 +32,12 @@ class TemporaryFolder {
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
   /// Writes `text` to the file `name`, in folders that this makes where need be; returns its path.
-  std::string write(const std::string& name, const std::string& text) const;
+  std::string write(const std::string& name, const std::string& text) const {
+    const std::filesystem::path file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+    return file.string();
+  }
 
  private:
   std::filesystem::path path_;

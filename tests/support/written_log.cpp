@@ -1,7 +1,5 @@
 #include "tests/support/written_log.hpp"
 
-#include <limits>
-
 #include "core/log/hdf5/hdf5_error.hpp"
 #include "core/log/log_writer.hpp"
 #include "experiments/audit/audit.hpp"
@@ -9,26 +7,18 @@
 
 namespace hagfish {
 
-void write_log(const std::filesystem::path& file, const ResolvedScene& scene, const Model& model,
-               Simulation sim, int most_steps) {
+void write_log(const std::filesystem::path& file, SceneRun run, int most_steps) {
   LogHeader header;
   header.qp = "active-set";
-  header.scene = scene_to_toml(scene.scene, scene.specimen);
-  header.mjcf = mjcf_files(model, scene.scene.contact.least_arc, scene.scene.time.step);
-  LogWriter log(file, true, header, model, scene.scene);
-  StepRecord record;
+  header.scene = scene_to_toml(run.scene, run.specimen);
+  header.mjcf = mjcf_files(run.model, run.scene.contact.least_arc, run.scene.time.step);
+  LogWriter log(file, true, header, run.model, run.scene);
   double wall_time = 0;
-  for (int k = 0; k < most_steps && !finished(sim, scene.scene); ++k) {
-    take_step(model, scene.scene, sim, record);
-    log.write(record, sim, wall_time += 1e-4);
+  for (int k = 0; k < most_steps && !run.over(); ++k) {
+    run.step();
+    log.write(run.record, run.sim, wall_time += 1e-4);
   }
-  log.finish("complete", sim);
-}
-
-void write_log(const std::filesystem::path& file, const ResolvedScene& scene) {
-  const Model model = make_hagfish(scene.specimen, scene.scene);
-  write_log(file, scene, model, start(model, scene.scene, "active-set"),
-            std::numeric_limits<int>::max());
+  log.finish("complete", run.sim);
 }
 
 std::string audit_objections(const std::filesystem::path& file) try {

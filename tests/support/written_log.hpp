@@ -2,23 +2,24 @@
 #pragma once
 
 #include <H5Cpp.h>
+#include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "core/input/files/scene_reader.hpp"
-#include "core/run/simulation.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish {
 
-/// Runs `scene` on from `sim` to its end, but for `most_steps` at most, and logs it in `file`. Each
-/// step is said to have taken 0.1 ms.
-void write_log(const std::filesystem::path& file, const ResolvedScene& scene, const Model& model,
-               Simulation sim, int most_steps);
-
-/// Logs the whole run of `scene`, by the active-set method, in `file`.
-void write_log(const std::filesystem::path& file, const ResolvedScene& scene);
+/// Takes `run` to its end, but for `most_steps` at most, and logs it in `file`. Each step is said
+/// to have taken 0.1 ms.
+void write_log(const std::filesystem::path& file, SceneRun run,
+               int most_steps = std::numeric_limits<int>::max());
 
 /// What the audit objects to in `file`, a line each, or why it refuses it. Empty for a good log.
 std::string audit_objections(const std::filesystem::path& file);
@@ -42,20 +43,34 @@ std::vector<T> rewrite(const std::filesystem::path& file, const std::string& pat
   return before;
 }
 
-/// What the audit objects to while `change` has had the values of a dataset, written as `type`.
-template <class T, class Change>
-std::string objections_while(const std::filesystem::path& file, const std::string& path,
-                             const H5::DataType& type, Change change) {
+/// For expect_watched: changes every number of a dataset; or one, from a third of it on the first
+/// that `change` changes.
+template <class Change>
+auto every(Change change) {
+  return [=](auto& values) { std::ranges::transform(values, values.begin(), change); };
+}
+template <class Change>
+auto one(Change change) {
+  return [=](auto& values) {
+    const auto at = std::find_if(values.begin() + values.size() / 3, values.end(),
+                                 [&](auto v) { return std::abs(change(v) - v) > 0; });
+    ASSERT_NE(at, values.end());
+    *at = change(*at);
+  };
+}
+
+/// EXPECTs the audit to object by each of `watchers` while `change` has had a dataset's numbers.
+template <class T = double, class Change>
+void expect_watched(const std::filesystem::path& file, const std::string& path, Change change,
+                    const std::vector<std::string>& watchers) {
+  const H5::PredType& type =
+      std::is_same_v<T, double> ? H5::PredType::NATIVE_DOUBLE : H5::PredType::NATIVE_INT64;
   const std::vector<T> before = rewrite<T>(file, path, type, change);
   const std::string text = audit_objections(file);
   rewrite<T>(file, path, type, [&](std::vector<T>& values) { values = before; });
-  return text;
-}
-/// The same of a dataset of numbers with fractions.
-template <class Change>
-std::string objections_while(const std::filesystem::path& file, const std::string& path,
-                             Change change) {
-  return objections_while<double>(file, path, H5::PredType::NATIVE_DOUBLE, change);
+  for (const std::string& watcher : watchers) {
+    EXPECT_NE(text.find(watcher), std::string::npos) << path << ": " << text;
+  }
 }
 
 }  // namespace hagfish

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/chain/dynamics.hpp"
-#include "core/input/files/scene_reader.hpp"
+#include "experiments/common/scene_argument.hpp"
 
 namespace hagfish::bend_test_test {
 
@@ -61,10 +61,8 @@ BendTest bend(const Model& model, Axis axis, double from, double to, double curv
 
 TEST(VirtualBendTest, GivesBackTheSpecimensStiffnessAndDamping) {
   for (const char* bodies : {"100", "200"}) {
-    const auto [scene, specimen, _] =
-        read_scene(std::string(HAGFISH_DATA_DIR) + "/living_overhand.toml",
-                   {std::string("model.bodies=") + bodies});
-    const Model model = make_hagfish(specimen, scene);
+    const Model model =
+        scene_argument("living_overhand", {std::string("model.bodies=") + bodies}).model;
     // 2.5 cm about 37 % of the length, 20 per m, 3 pi rad/s: the middle of what was tested.
     const double omega = 3 * std::numbers::pi;
     for (const Axis axis : {Axis::y, Axis::z}) {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ostream>
 #include <stdexcept>
 #include <string>
 
@@ -52,10 +51,6 @@ struct Elastica {
   double load_number;  ///< P L^2 / EI
   Tip tip;
 };
-
-void PrintTo(const Elastica& elastica, std::ostream* out) {
-  *out << "load " << elastica.load_number;
-}
 
 class Cantilever : public ::testing::TestWithParam<Elastica> {};
 

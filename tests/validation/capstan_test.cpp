@@ -22,23 +22,17 @@ class Capstan : public testing::Test {
   /// A step with a pull of `tip` (dyn) along -X at the loose end, and rows of Eq. 6 that ask for
   /// more than their `cap` (dyn) gives between the two strands.
   void step(double tip, double cap) {
-    const Scene& scene = run.scene;
     Control control;
     control.tip.value.x() = -tip;
-    seen = observe(run.model, run.state, scene);
     run.scene.controller.cap = std::max(cap, 1e-9);
-    if (cap > 0) {
-      control.thigmotaxis.push_back({strands(), {1e3, 1e3}});
-    }
-    const StepInput in{run.model, scene, run.state, seen, control};
-    ASSERT_TRUE(solver.solve(in, solution).ok());
-    run.state.qdot = solution.qdot;
-    run.state.q = advance(run.state.q, run.state.qdot, scene.time.step);
+    if (cap > 0) control.thigmotaxis.push_back({strands(), {1e3, 1e3}});
+    run.step(control);
   }
 
   /// The pair of points beside each other, as far from the post, on the strand of the head and on
   /// the one that comes back.
   Contact strands() const {
+    const Observation seen = observe(run.model, run.state, run.scene);
     const int bodies = run.model.body_count();
     int back = bodies / 2;  // on the post
     const Eigen::Matrix3Xd& centre = seen.kin.centre;
@@ -57,8 +51,7 @@ class Capstan : public testing::Test {
   void settle(double tip, double cap) {
     for (int k = 0; k < 20000; ++k) {
       step(tip, cap);
-      if (HasFatalFailure()) return;
-      if (k > 100 && solution.centre_velocity.leftCols(last_loaded).cwiseAbs().maxCoeff() < still) {
+      if (k > 100 && run.last.centre_velocity.leftCols(last_loaded).cwiseAbs().maxCoeff() < still) {
         return;
       }
     }
@@ -68,10 +61,10 @@ class Capstan : public testing::Test {
   /// Force on the post, dyn.
   Eigen::Vector3d on_post() const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < solution.rows.size(); ++i) {
-      if (solution.rows[i].kind == RowKind::obstacle) {
-        sum -= solution.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step *
-               solution.rows[i].points().direction;
+    for (std::size_t i = 0; i < run.last.rows.size(); ++i) {
+      if (run.last.rows[i].kind == RowKind::obstacle) {
+        sum -= run.last.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step *
+               run.last.rows[i].points().direction;
       }
     }
     return sum;
@@ -79,19 +72,16 @@ class Capstan : public testing::Test {
   /// Sum of the forces of the post, dyn, whatever their ways.
   double pressed() const {
     double sum = 0;
-    for (std::size_t i = 0; i < solution.rows.size(); ++i) {
-      if (solution.rows[i].kind == RowKind::obstacle) {
-        sum += solution.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step;
+    for (std::size_t i = 0; i < run.last.rows.size(); ++i) {
+      if (run.last.rows[i].kind == RowKind::obstacle) {
+        sum += run.last.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step;
       }
     }
     return sum;
   }
-  double pull() const { return -solution.force[RowKind::head][0]; }
+  double pull() const { return -run.last.force[RowKind::head][0]; }
 
   ChainRun run = chain_round_a_post();
-  StepSolver solver{"active-set"};
-  StepSolution solution;
-  Observation seen;
   mutable int last_loaded = run.model.body_count();
 };
 

@@ -9,21 +9,21 @@
 
 namespace hagfish::equation4_test {
 
-/// Three steps on from `sim`, each against the paper's. Returns how many cones pushed.
-int compare(const Model& model, Scene scene, Simulation sim) {
-  scene.constraints.corrections = 0;         // which add rows that the paper has not
-  scene.time.momentum = FreeMomentum::rule;  // the paper's
+/// Three steps on, each against the paper's. Returns how many cones pushed.
+int compare(SceneRun run) {
+  run.scene.constraints.corrections = 0;         // which add rows that the paper has not
+  run.scene.time.momentum = FreeMomentum::rule;  // the paper's
   int pushing = 0;
   for (int k = 0; k < 3; ++k) {
-    SCOPED_TRACE(sim.step);
-    const StepRecord record = take_step(model, scene, sim);
-    const State& before = record.after.state;
-    expect_optimal({model, scene, before, record.after.observation, record.control},
+    SCOPED_TRACE(run.sim.step);
+    const StepRecord& record = run.step();
+    const State &before = record.after.state, &now = run.sim.now.state;
+    expect_optimal({run.model, run.scene, before, record.after.observation, record.control},
                    record.solution);
     // Eqs. 1 and 2: the new velocity, and where it leads.
-    EXPECT_EQ(sim.now.state.qdot, record.solution.qdot);
-    EXPECT_EQ(sim.now.state.q, advance(before.q, record.solution.qdot, scene.time.step));
-    for (const BendingCone& cone : model.cones) {
+    EXPECT_EQ(now.qdot, record.solution.qdot);
+    EXPECT_EQ(now.q, advance(before.q, record.solution.qdot, run.scene.time.step));
+    for (const BendingCone& cone : run.model.cones) {
       pushing += record.solution.force[RowKind::limit].segment<2>(cone.dof).isZero(0) ? 0 : 1;
     }
   }
@@ -34,30 +34,24 @@ class Equation4 : public testing::TestWithParam<std::tuple<StoredState, std::str
 
 TEST_P(Equation4, IsMetByTheStep) {
   const auto& [stored, back_end] = GetParam();
-  const ResolvedScene resolved = stored_scene();
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Scene scene = resolved.scene;
+  SceneRun run(stored_scene());
   for (const Eq6Point at : {Eq6Point::centreline, Eq6Point::skin}) {
-    scene.controller.eq6_at = at;
-    compare(model, scene, resume(model, scene, stored, back_end));
+    run.scene.controller.eq6_at = at;
+    run.sim = resume(run.model, run.scene, stored, back_end);
+    compare(run);
   }
 }
 
 TEST(Equation4OfCones, IsMetByTheStep) {
-  const ResolvedScene resolved = stored_scene({"model.bending_limit=cone"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Simulation sim = start(model, resolved.scene, "active-set");
-  StepRecord record;
+  SceneRun run(stored_scene({"model.bending_limit=cone"}));
   int pushing = 0;
   for (const double time : {8.0, 10.5, 12.0, 13.0, 15.0, 16.0}) {  // s; from tying to sliding
-    while (time_of(sim, resolved.scene) < time) {
-      take_step(model, resolved.scene, sim, record);
-    }
+    while (run.time() < time) run.step();
     for (const std::string& back_end : box_qp_solver_names()) {
-      Simulation other = sim;
-      other.solver = StepSolver(back_end);
-      other.solver.warm = sim.solver.warm;
-      pushing += compare(model, resolved.scene, std::move(other));
+      SceneRun other = run;
+      other.sim.solver = StepSolver(back_end);
+      other.sim.solver.warm = run.sim.solver.warm;
+      pushing += compare(std::move(other));
     }
   }
   EXPECT_GT(pushing, 20);

@@ -10,10 +10,10 @@
 
 #include "core/chain/start.hpp"
 #include "core/control/control_law.hpp"
-#include "core/run/simulation.hpp"
 #include "experiments/mechanics/rod.hpp"
 #include "tests/support/chain_runs.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish::flesh_test {
 
@@ -176,20 +176,17 @@ TEST(FleshInASlit, IsPulledAlikeAtAnyStep) {
   for (const double step : {0.005, 0.002, 0.001}) {
     Slit slit(100, 0.7, step);
     slit.scene.controller.law = own_law;
-    ControllerState controller;
-    controller.phase = Phase::free;
-    Simulation sim =
-        start_from(slit.model, slit.scene, "active-set", rest_state(slit.model), controller, 0);
+    slit.scene.start.phase = Phase::free;
+    SceneRun run(ResolvedScene{slit.scene, {}, slit.model});
     // A stiff damper moves the tail at 3 cm/s.
-    sim.law = [](const Situation&, Eigen::VectorXd&, Control& control) {
+    run.sim.law = [](const Situation&, Eigen::VectorXd&, Control& control) {
       control.clamp_head = false;
       control.tip = {Eigen::Vector3d(3e5, 0, 0), 1e5};
     };
-    StepRecord record;
     double pull = 0;
     int count = 0;
-    while (time_of(sim, slit.scene) < 2) {
-      take_step(slit.model, slit.scene, sim, record);
+    while (run.time() < 2) {
+      const StepRecord& record = run.step();
       if (record.time < 1) continue;
       pull += record.solution.tip.x();
       ++count;
@@ -239,23 +236,15 @@ TEST(FleshOnAFloor, SwingsAsASpringAndADamper) {
     run.scene.flesh = {k, tau, 0.2};
     const double rest = 0.5 - mass * gravity / (k * length);
     run.state.q[2] = rest + 0.02;  // the overlap at rest is 0.049 cm
-    StepSolution last;
-    double before = 0.02, time = 0;
+    double before = 0.02;
     std::vector<double> crossings, peaks;
     double peak = 0;
-    StepSolver solver("active-set");
-    Control control;
-    control.clamp_head = false;
     while (crossings.size() < 4) {
-      const Observation seen = observe(run.model, run.state, run.scene);
-      ASSERT_TRUE(solver.solve({run.model, run.scene, run.state, seen, control}, last).ok());
-      run.state.q = advance(run.state.q, last.qdot, h);
-      run.state.qdot = last.next;
-      time += h;
+      run.step();
       const double off = run.state.q[2] - rest;
       peak = std::max(peak, off);
       if (before > 0 && off <= 0) {
-        crossings.push_back(time - h * off / (off - before));
+        crossings.push_back(run.time - h * off / (off - before));
         peaks.push_back(peak);
         peak = 0;
       }

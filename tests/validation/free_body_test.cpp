@@ -9,8 +9,6 @@
 #include <iterator>
 #include <numbers>
 
-#include "core/input/files/scene_reader.hpp"
-#include "core/run/simulation.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish::free_body_test {
@@ -36,7 +34,7 @@ ResolvedScene empty_space(const std::string& rule, double h,
                                "time.rule=" + rule,
                                "time.step=" + std::to_string(h)};
   set.insert(set.end(), more.begin(), more.end());
-  return read_scene(HAGFISH_DATA_DIR "/table1.toml", set);
+  return scene_argument("table1", set);
 }
 
 /// A wave of bending that travels from head to tail, 2 rad of it, each second; about Z and,
@@ -55,31 +53,23 @@ ControlLaw wave(double turned) {
   };
 }
 
-struct FreeRun {
-  explicit FreeRun(const ResolvedScene& of, ControlLaw law)
-      : scene(of.scene),
-        model(make_hagfish(of.specimen, scene)),
-        sim(start(model, scene, "active-set")) {
+struct FreeRun : SceneRun {
+  FreeRun(const ResolvedScene& of, ControlLaw law) : SceneRun(of) {
     sim.law = std::move(law);
     centre = centre_of_mass(model, sim.now.observation.kin);
   }
   void step() {
     before = sim.now.observation.kin;
-    take_step(model, scene, sim, record);
+    SceneRun::step();
     const Kinematics& kin = sim.now.observation.kin;
     moved = std::max(moved, (centre_of_mass(model, kin) - centre).norm());
     std::ranges::copy_if(record.warnings, std::back_inserter(told), [](const std::string& warning) {
       return warning.find("pushed the free body") != std::string::npos;
     });
   }
-  double time() const { return time_of(sim, scene); }
   /// Of the head about Z, rad, of a body that moves in the plane.
   double angle() const { return 2 * std::atan2(sim.now.state.q[6], sim.now.state.q[3]); }
 
-  Scene scene;
-  Model model;
-  Simulation sim;
-  StepRecord record;
   Kinematics before;  // the last step
   Eigen::Vector3d centre;
   double moved = 0;
@@ -172,32 +162,28 @@ struct Observer {
 /// its angles in 0.5 s, rad, a column for each step.
 Eigen::MatrixXd let_go(const std::string& rule, bool tied, const Observer& observer) {
   const Eigen::Vector3d& g = observer.gravity;
-  const ResolvedScene scene =
+  SceneRun run(
       stored_scene({"clamp_head=false", "wall.present=false", "drag.normal=0", "drag.tangential=0",
                     "script.kind=none", "expect.knot=", "expect.types=[]", "time.step=0.005",
-                    "time.rule=" + rule, fmt::format("gravity=[{},{},{}]", g[0], g[1], g[2])});
-  const Model model = make_hagfish(scene.specimen, scene.scene);
+                    "time.rule=" + rule, fmt::format("gravity=[{},{},{}]", g[0], g[1], g[2])}));
+  const Model& model = run.model;
   State state = rest_state(model);
   for (const Body& body : model.bodies) {
     if (bends(body)) state.q.segment<2>(body.first_dof + 1).setConstant(0.02);
   }
-  if (tied) {
-    const std::vector<StoredState> all = stored_states();
-    state.q = std::ranges::find(all, Phase::tighten, &StoredState::phase)->state.q;
-  }
+  if (tied) state.q = stored_state("tighten").state.q;
   const Eigen::Quaterniond turned = observer.turn * root_orientation(state.q);
   state.q.head<3>() = observer.turn * state.q.head<3>();
   state.q.segment<4>(3) << turned.w(), turned.x(), turned.y(), turned.z();
   state.qdot.head<3>() = observer.drift;
   ControllerState controller;
   controller.phase = Phase::free;
-  Simulation sim = start_from(model, scene.scene, "active-set", state, controller, 0);
+  run.sim = start_from(model, run.scene, "active-set", state, controller, 0);
   Eigen::MatrixXd angles(model.nv() - root_dofs, 100);
-  StepRecord record;
   for (Eigen::Index k = 0; k < angles.cols(); ++k) {
-    take_step(model, scene.scene, sim, record);
-    EXPECT_TRUE(record.warnings.empty()) << record.warnings.front();
-    angles.col(k) = sim.now.state.q.tail(angles.rows());
+    const std::vector<std::string>& warnings = run.step().warnings;
+    EXPECT_TRUE(warnings.empty()) << warnings.front();
+    angles.col(k) = run.sim.now.state.q.tail(angles.rows());
   }
   return angles;
 }

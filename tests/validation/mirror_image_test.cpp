@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/input/files/scene_reader.hpp"
 #include "core/knot/writhe.hpp"
-#include "core/run/simulation.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish::mirror_image_test {
 
@@ -75,35 +74,28 @@ std::string difference(const Model& model, const StepRecord& r, const StepRecord
 /// Runs a built-in scene with the settings `set`, and its image, side by side until `end` (s) or
 /// the end of the scene, and expects the same of every step. Returns the last controller.
 ControllerState expect_reflection(const char* name, std::vector<std::string> set, double end) {
-  const std::string file = std::string(HAGFISH_DATA_DIR) + "/" + name + ".toml";
   set.insert(set.end(), {"time.step=0.005", "time.frame_interval=0.02"});
-  const ResolvedScene plain = read_scene(file, set);
+  SceneRun plain(name, set);
   set.emplace_back("mirror=true");
-  const ResolvedScene turned = read_scene(file, set);
-  const Model model = make_hagfish(plain.specimen, plain.scene);
-  const Model model_of_image = make_hagfish(turned.specimen, turned.scene);  // gravity differs
-  Simulation sim = start(model, plain.scene, "active-set");
-  Simulation image = start(model_of_image, turned.scene, "active-set");
-  StepRecord record, record_of_image;
+  SceneRun turned(name, set);
   double most_writhe = 0;
-  while (!finished(sim, plain.scene) && time_of(sim, plain.scene) < end) {
-    take_step(model, plain.scene, sim, record);
-    take_step(model_of_image, turned.scene, image, record_of_image);
-    const std::string off = difference(model, record, record_of_image);
+  while (!plain.over() && plain.time() < end) {
+    const StepRecord &record = plain.step(), &image = turned.step();
+    const std::string off = difference(plain.model, record, image);
     double w = 0, w_of_image = 0;
     if (record.step % 100 == 0) {
       w = writhe(record.after.observation.kin.centre);
-      w_of_image = writhe(record_of_image.after.observation.kin.centre);
+      w_of_image = writhe(image.after.observation.kin.centre);
       most_writhe = std::max(most_writhe, std::abs(w));
     }
     if (!off.empty() || w != -w_of_image) {
       ADD_FAILURE() << "at " << record.time << " s: " << (off.empty() ? "writhe" : off);
-      return sim.controller;
+      return plain.sim.controller;
     }
   }
-  EXPECT_EQ(finished(sim, plain.scene), finished(image, turned.scene));
+  EXPECT_EQ(plain.over(), turned.over());
   EXPECT_GT(most_writhe, 0.1);  // the run has a hand
-  return sim.controller;
+  return plain.sim.controller;
 }
 
 class MirrorImage : public testing::TestWithParam<const char*> {};

@@ -40,11 +40,6 @@ MujocoModel mirror_of(const Model& model, Head head) {
   return MujocoModel(mjcf_files(model, table1_scene().contact.least_arc, 0.002, head));
 }
 
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.bodies << " bodies, head " << (c.head == Head::free ? "free" : "clamped")
-       << (c.joints == JointLayout::universal ? ", universal joints alone" : "");
-}
-
 class MujocoAgreement : public testing::TestWithParam<Case> {};
 
 TEST_P(MujocoAgreement, HoldsInRandomStates) {

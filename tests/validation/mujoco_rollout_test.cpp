@@ -36,11 +36,6 @@ MujocoModel mirror_of(const Model& model, double h, Head head) {
   return MujocoModel(mjcf_files(model, 0, h, head));
 }
 
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.bodies << " bodies, head " << (c.head == Head::free ? "free" : "clamped")
-       << ", damping " << c.damping;
-}
-
 class MujocoRollout : public testing::TestWithParam<Case> {};
 
 TEST_P(MujocoRollout, MovesAlikeForOneSecond) {

@@ -9,9 +9,8 @@
 
 #include "core/chain/start.hpp"
 #include "core/control/control_law.hpp"
-#include "core/input/files/scene_reader.hpp"
-#include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish::obstacles_test {
 
@@ -23,12 +22,15 @@ Obstacle strand(const std::string& name, const std::vector<Eigen::Vector3d>& poi
 }
 
 /// A run of a model with obstacles, pulled by a force on its last body.
-class Obstructed {
- public:
-  Obstructed(Model model, Scene scene, const State& state, const Eigen::Vector3d& pull)
-      : model_(std::move(model)), scene_(std::move(scene)), sim_(begin(state)) {
-    const bool clamped = scene_.clamp_head;
-    sim_.law = [pull, clamped](const Situation&, Eigen::VectorXd&, Control& control) {
+struct Obstructed : SceneRun {
+  Obstructed(const Model& of, Scene in, const State& state, const Eigen::Vector3d& pull)
+      : SceneRun(ResolvedScene{std::move(in), {}, of}) {
+    scene.controller.law = own_law;
+    ControllerState controller;
+    controller.phase = Phase::free;
+    sim = start_from(model, scene, "active-set", state, controller, 0);
+    const bool clamped = scene.clamp_head;
+    sim.law = [pull, clamped](const Situation&, Eigen::VectorXd&, Control& control) {
       control.clamp_head = clamped;
       control.tip = {pull, 0};
     };
@@ -36,18 +38,18 @@ class Obstructed {
   /// Steps on for `duration` s. A step's force is an impulse over h: means are taken of all of
   /// them.
   void run(double duration) {
-    const auto steps = std::lround(duration / scene_.time.step);
+    const auto steps = std::lround(duration / scene.time.step);
     on_body = on_head = Eigen::Vector3d::Zero();
     for (long k = 0; k < steps; ++k) {
-      take_step(model_, scene_, sim_, record);
-      overlap = std::max(overlap, sim_.now.observation.penetration);
+      step();
+      overlap = std::max(overlap, sim.now.observation.penetration);
       on_body += force_of(0) / static_cast<double>(steps);
       on_head += record.solution.force[RowKind::head].head<3>() / static_cast<double>(steps);
     }
   }
-  const Eigen::Matrix3Xd& centres() const { return sim_.now.observation.kin.centre; }
+  const Eigen::Matrix3Xd& centres() const { return sim.now.observation.kin.centre; }
   double speed() const {
-    return sim_.now.observation.kin.centre_velocity.colwise().norm().maxCoeff();
+    return sim.now.observation.kin.centre_velocity.colwise().norm().maxCoeff();
   }
   /// Force of an obstacle on the body in the last step, dyn.
   Eigen::Vector3d force_of(int obstacle) const {
@@ -55,28 +57,16 @@ class Obstructed {
     const StepSolution& step = record.solution;
     for (std::size_t i = 0; i < step.rows.size(); ++i) {
       if (step.rows[i].obstacle == obstacle) {
-        sum += step.lambda[static_cast<Eigen::Index>(i)] / scene_.time.step *
+        sum += step.lambda[static_cast<Eigen::Index>(i)] / scene.time.step *
                step.rows[i].points().direction;
       }
     }
     return sum;
   }
 
-  StepRecord record;
   double overlap = 0;  ///< deepest so far, cm
   Eigen::Vector3d on_body,
       on_head;  ///< means of the last run: of the first obstacle, the clamp; dyn
-
- private:
-  Simulation begin(const State& state) {
-    scene_.controller.law = own_law;
-    ControllerState controller;
-    controller.phase = Phase::free;
-    return start_from(model_, scene_, "active-set", state, controller, 0);
-  }
-  Model model_;
-  Scene scene_;
-  Simulation sim_;
 };
 
 class AtSteps : public testing::TestWithParam<double> {};
@@ -183,16 +173,12 @@ double winding(const Model& model, const Eigen::Matrix3Xd& centre, double from, 
 
 // The built-in scene: the loop of the knot has the pole in it, and keeps it.
 TEST(KnotRoundAPole, SlidesUntilItHangsOnThePole) {
-  const ResolvedScene resolved =
-      read_scene(std::string(HAGFISH_DATA_DIR) + "/knot_round_a_pole.toml");
-  const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
-  Simulation sim = start(model, scene, "active-set");
-  StepRecord record;
+  SceneRun run("knot_round_a_pole");
+  const StepRecord& record = run.record;
   double overlap = 0, tied = 0;
-  while (!finished(sim, scene)) {
-    take_step(model, scene, sim, record);
-    overlap = std::max(overlap, sim.now.observation.penetration);
+  while (!run.over()) {
+    run.step();
+    overlap = std::max(overlap, run.sim.now.observation.penetration);
     if (record.controller.phase == Phase::slide && tied == 0) {
       tied = knot_span(record.controller)->head_end;
     }
@@ -203,36 +189,31 @@ TEST(KnotRoundAPole, SlidesUntilItHangsOnThePole) {
   ASSERT_TRUE(span);
   EXPECT_GT(tied - span->head_end, 3);  // it slid,
   EXPECT_GT(span->head_end, 5);         // and hangs: without the pole it is at the head by now
-  const Strand& pole = *model.obstacles.at(1).strand();
-  EXPECT_GT(std::abs(winding(model, sim.now.observation.kin.centre, span->head_end, span->tail_end,
-                             pole.points[0], pole.points[1])),
+  const Strand& pole = *run.model.obstacles.at(1).strand();
+  EXPECT_GT(std::abs(winding(run.model, run.sim.now.observation.kin.centre, span->head_end,
+                             span->tail_end, pole.points[0], pole.points[1])),
             0.6);
 }
 
 // A smooth pole pushes across itself alone: nothing holds a knot on it along its axis (capstan
 // without friction), however the animal is wound round it.
 TEST(LivingKnotRoundAPole, IsPushedAcrossThePoleAlone) {
-  const ResolvedScene resolved = read_scene(std::string(HAGFISH_DATA_DIR) + "/reflex_pole.toml");
-  const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
-  const Strand& pole = *model.obstacles.at(0).strand();
+  SceneRun run("reflex_pole");
+  const Strand& pole = *run.model.obstacles.at(0).strand();
   const Eigen::Vector3d axis = (pole.points.back() - pole.points.front()).normalized();
-  Simulation sim = start(model, scene, "active-set");
-  StepRecord record;
   double least_turn = INFINITY, across = 0, along = 0;
-  while (sim.controller.phase != Phase::release) {
-    take_step(model, scene, sim, record);
-    const StepSolution& step = record.solution;
+  while (run.phase() != Phase::release) {
+    const StepSolution& step = run.step().solution;
     for (std::size_t i = 0; i < step.rows.size(); ++i) {
       if (step.rows[i].obstacle != 0) continue;
-      const double push = step.lambda[static_cast<Eigen::Index>(i)] / scene.time.step;
+      const double push = step.lambda[static_cast<Eigen::Index>(i)] / run.scene.time.step;
       along = std::max(along, std::abs(push * step.rows[i].points().direction.dot(axis)));
       across = std::max(across, push);
     }
-    if (record.controller.phase == Phase::slide) {
-      const auto span = knot_span(record.controller);
+    if (run.record.controller.phase == Phase::slide) {
+      const auto span = knot_span(run.record.controller);
       ASSERT_TRUE(span);
-      const double turn = winding(model, sim.now.observation.kin.centre, span->head_end,
+      const double turn = winding(run.model, run.sim.now.observation.kin.centre, span->head_end,
                                   span->tail_end, pole.points.front(), pole.points.back());
       least_turn = std::min(least_turn, std::abs(turn));
     }

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <ostream>
 #include <string>
 
 #include "tests/support/chain_runs.hpp"
@@ -40,8 +39,6 @@ struct Swing {
   double degrees;
   double ratio;
 };
-
-void PrintTo(const Swing& swing, std::ostream* out) { *out << swing.degrees << " degrees"; }
 
 class Pendulum : public ::testing::TestWithParam<Swing> {};
 

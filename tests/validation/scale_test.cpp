@@ -6,8 +6,7 @@
 
 #include <string>
 
-#include "core/input/files/scene_reader.hpp"
-#include "core/run/simulation.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish::scale_test {
 
@@ -96,13 +95,10 @@ void scale(Scene& s, const Scale& by) {
 Eigen::VectorXd angles_after(ResolvedScene resolved, const Scale& by) {
   scale(resolved.specimen, by);
   scale(resolved.scene, by);
-  const Scene& scene = resolved.scene;
-  const Model model = make_hagfish(resolved.specimen, scene);
-  Simulation sim = start(model, scene, "active-set");
-  StepRecord record;
-  while (!finished(sim, scene)) take_step(model, scene, sim, record);
-  EXPECT_EQ(sim.controller.phase, Phase::slide);
-  return sim.now.state.q.tail(model.nv() - root_dofs);
+  SceneRun run(resolved.specimen, resolved.scene);
+  while (!run.over()) run.step();
+  EXPECT_EQ(run.phase(), Phase::slide);
+  return run.sim.now.state.q.tail(run.model.nv() - root_dofs);
 }
 
 class Scales : public testing::TestWithParam<const char*> {};
@@ -110,8 +106,7 @@ class Scales : public testing::TestWithParam<const char*> {};
 TEST_P(Scales, ChangeNoAngle) {
   // Into the slide, at a coarse step.
   const ResolvedScene resolved =
-      read_scene(std::string(HAGFISH_DATA_DIR) + "/" + GetParam() + ".toml",
-                 {"time.step=0.02", "time.until=slide", "time.duration=15"});
+      scene_argument(GetParam(), {"time.step=0.02", "time.until=slide", "time.duration=15"});
   const Eigen::VectorXd angles = angles_after(resolved, {});
   for (const Scale& by : {Scale{0.125}, {0.5}, {8}, {1, 4}, {1, 1, 2}, {32, 0.25, 0.5}}) {
     const double off = (angles_after(resolved, by) - angles).lpNorm<Eigen::Infinity>();

@@ -21,12 +21,10 @@ ResolvedScene scene_of(std::vector<std::string> set) {
 void no_commands(const Situation&, Eigen::VectorXd&, Control&) {}
 
 /// What the audit says of 300 steps from the scene's start, by `law`.
-std::string objections(const ResolvedScene& resolved, const ControlLaw& law = no_commands) {
+std::string objections(SceneRun run, const ControlLaw& law = no_commands) {
   const TemporaryFolder folder;
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Simulation sim = start(model, resolved.scene, "active-set");
-  sim.law = law;
-  write_log(folder / "log.h5", resolved, model, sim, 300);
+  run.sim.law = law;
+  write_log(folder / "log.h5", run, 300);
   return audit_objections(folder / "log.h5");
 }
 
@@ -43,17 +41,15 @@ TEST(Standstill, OfAStraightBodyFreeClampedOrPulled) {
 std::string objections_to_a_knot(const std::vector<std::string>& set, const ControlLaw& law,
                                  int steps) {
   const TemporaryFolder folder;
-  const ResolvedScene resolved = scene_of(set);
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  const std::vector<StoredState> all = stored_states();
-  StoredState knot = *std::ranges::find(all, "slide", &StoredState::name);
+  SceneRun run(scene_of(set));
+  StoredState knot = stored_state("slide");
   knot.phase = Phase::form;  // in which no knot is expected
   knot.state.qdot.setZero();
-  const std::int64_t stride = frame_stride(resolved.scene.time);
+  const std::int64_t stride = frame_stride(run.scene.time);
   knot.step -= knot.step % stride;  // a log begins with a frame
-  Simulation sim = resume(model, resolved.scene, knot);
-  sim.law = law;
-  write_log(folder / "log.h5", resolved, model, sim, steps);
+  run.sim = resume(run.model, run.scene, knot);
+  run.sim.law = law;
+  write_log(folder / "log.h5", run, steps);
   return audit_objections(folder / "log.h5");
 }
 
@@ -88,12 +84,12 @@ Finding motion_of(double size, double moved) {
   animal.bending_span *= size;
   for (double& around : animal.circumference) around *= size;
   resolved.scene.contact.least_arc *= size;
-  const Model model = make_hagfish(animal, resolved.scene);
-  Simulation sim = start(model, resolved.scene, "active-set");
-  sim.law = no_commands;
-  write_log(folder / "log.h5", resolved, model, sim, 300);
-  rewrite<double>(folder / "log.h5", "/trajectory/q", H5::PredType::NATIVE_DOUBLE,
-                  [&](std::vector<double>& q) { q[3 * model.nq() + 1] += moved * animal.length; });
+  SceneRun run(animal, resolved.scene);
+  run.sim.law = no_commands;
+  write_log(folder / "log.h5", run, 300);
+  rewrite<double>(
+      folder / "log.h5", "/trajectory/q", H5::PredType::NATIVE_DOUBLE,
+      [&](std::vector<double>& q) { q[3 * run.model.nq() + 1] += moved * animal.length; });
   std::vector<Finding> findings = audit(folder / "log.h5");
   return *std::ranges::find(findings, "motion", &Finding::name);
 }

@@ -7,6 +7,7 @@
 
 #include "tests/support/errors.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish::closed_loop_test {
 
@@ -30,18 +31,16 @@ Scene bent_scene() {
 Eigen::Matrix3Xd moved(Scene scene, bool in_mujoco, double h, double time,
                        MujocoIntegrator integrator = MujocoIntegrator::euler) {
   scene.time.step = h;
-  const Model model = make_hagfish(table1_specimen(), scene);
-  Simulation sim = start(model, scene, "active-set");
-  MujocoLoop mujoco(model, scene, {.integrator = integrator});
-  StepRecord record;
-  while (time_of(sim, scene) < time - 0.5 * h) {
+  SceneRun run(table1_specimen(), scene);
+  MujocoLoop mujoco(run.model, run.scene, {.integrator = integrator});
+  while (run.time() < time - 0.5 * h) {
     if (in_mujoco) {
-      mujoco.take_step(sim, record);
+      mujoco.take_step(run.sim, run.record);
     } else {
-      take_step(model, scene, sim, record);
+      run.step();
     }
   }
-  return sim.now.observation.kin.centre;
+  return run.sim.now.observation.kin.centre;
 }
 
 // Drag is explicit in MuJoCo and implicit here: apart in the first order in h.
@@ -77,16 +76,14 @@ TEST(ClosedLoop, MovesAlikeByEachIntegrator) {
 }
 
 TEST(ClosedLoop, SaysWhatTheStepDid) {
-  const Scene scene = bent_scene();
-  const Model model = make_hagfish(table1_specimen(), scene);
-  Simulation sim = start(model, scene, "active-set");
-  MujocoLoop mujoco(model, scene);
-  StepRecord record;
-  const State before = sim.now.state;
-  mujoco.take_step(sim, record);
+  SceneRun run(table1_specimen(), bent_scene());
+  const StepRecord& record = run.record;
+  MujocoLoop mujoco(run.model, run.scene);
+  const State before = run.sim.now.state;
+  mujoco.take_step(run.sim, run.record);
   EXPECT_EQ(record.after.state.q, before.q);
-  EXPECT_EQ(record.solution.next, sim.now.state.qdot);
-  EXPECT_EQ(sim.step, 1);
+  EXPECT_EQ(record.solution.next, run.sim.now.state.qdot);
+  EXPECT_EQ(run.sim.step, 1);
   const ActiveTorque& asked = record.control.active;
   const Eigen::VectorXd torque = asked.value - asked.rate.cwiseProduct(record.solution.next);
   EXPECT_LE((record.solution.active_torque - torque).norm(), 1e-12 * torque.norm());

@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "core/log/hdf5/hdf5_reader.hpp"
+#include "core/muscle/paths.hpp"
 #include "mujoco_ref/agreement.hpp"
 #include "mujoco_ref/mirror.hpp"
 #include "mujoco_ref/mjcf.hpp"
-#include "tests/support/muscled_hagfish.hpp"
+#include "tests/support/random_chain.hpp"
 
 namespace hagfish::mjcf_muscles_test {
 

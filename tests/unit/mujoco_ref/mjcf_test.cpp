@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <ostream>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -60,8 +59,6 @@ struct Case {
   std::string name;
   Model model;
 };
-
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 /// Loads the case's model once a test; `forward` puts it into a state.
 class Mirror : public testing::TestWithParam<Case> {

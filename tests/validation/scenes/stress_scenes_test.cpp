@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/input/files/scene_reader.hpp"
 #include "experiments/common/scene_argument.hpp"
 #include "experiments/mujoco/stress.hpp"
 
@@ -31,7 +30,7 @@ StressResult run_cell(const std::string& scene, const std::string& method, doubl
   std::vector<std::string> set = stress_overrides(method, step);
   set.insert(set.end(), more.begin(), more.end());
   const ResolvedScene resolved = scene_argument(scene, set);
-  return stress(resolved.scene, make_hagfish(resolved.specimen, resolved.scene), method, cpu_limit);
+  return stress(resolved.scene, resolved.model, method, cpu_limit);
 }
 
 class StressScenes : public testing::TestWithParam<std::string> {
@@ -40,7 +39,7 @@ class StressScenes : public testing::TestWithParam<std::string> {
   static std::string outcome(const std::string& method, double step) {
     std::vector<std::string> set = {"time.duration=" + std::to_string(4 * step)};
     // A few steps of 400 bodies take MuJoCo a minute.
-    if (read_scene(GetParam()).scene.model.bodies > most_bodies) {
+    if (scene_argument(GetParam(), {}).scene.model.bodies > most_bodies) {
       set.push_back("model.bodies=" + std::to_string(most_bodies));
     }
     const StressResult result = run_cell(GetParam(), method, step, set);
@@ -99,7 +98,6 @@ struct RuleCell {
   std::string method, scene;
   double step;
 };
-void PrintTo(const RuleCell& cell, std::ostream* out) { *out << cell.method << " " << cell.scene; }
 
 const RuleCell rule_cells[] = {
     {"no_watch", "short_bodies", 0.002},

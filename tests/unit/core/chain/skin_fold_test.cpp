@@ -5,9 +5,7 @@
 
 #include <cmath>
 
-#include "core/scene/specimen.hpp"
 #include "tests/support/random_chain.hpp"
-#include "tests/support/stored_states.hpp"
 
 namespace hagfish::skin_fold_test {
 
@@ -15,9 +13,7 @@ namespace hagfish::skin_fold_test {
 /// head.
 template <class Along>
 double fold_of(int bodies, Along along) {
-  ResolvedScene resolved = stored_scene();
-  resolved.scene.model.bodies = bodies;
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const Model model = table1_hagfish(bodies);
   State state = rest_state(model);
   double arc = 0;
   for (int b = 0; b < model.body_count(); ++b) {
@@ -33,11 +29,7 @@ double fold_of(int bodies, Along along) {
 
 double widest(int bodies) {
   double most = 0;
-  ResolvedScene resolved = stored_scene();
-  resolved.scene.model.bodies = bodies;
-  for (const Body& body : make_hagfish(resolved.specimen, resolved.scene).bodies) {
-    most = std::max(most, body.radius);
-  }
+  for (const Body& body : table1_hagfish(bodies).bodies) most = std::max(most, body.radius);
   return most;
 }
 

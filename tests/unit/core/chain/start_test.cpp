@@ -55,7 +55,7 @@ TEST(Start, BendsStopAtTheLimits) {
 
 TEST(Start, AGivenStateIsTakenAsItIs) {
   const Model fish = table1_hagfish();
-  const StoredState stored = stored_states().at(3);
+  const StoredState stored = stored_state("slide");
   StartSettings settings;
   settings.q.assign(stored.state.q.begin(), stored.state.q.end());
   settings.qdot.assign(stored.state.qdot.begin(), stored.state.qdot.end());
@@ -68,9 +68,7 @@ TEST(Start, AGivenStateIsTakenAsItIs) {
 }
 
 TEST(Start, NoiseIsNormalSeededAndWithinLimits) {
-  ResolvedScene resolved = stored_scene();
-  resolved.scene.model.bodies = 400;
-  const Model fish = make_hagfish(resolved.specimen, resolved.scene);
+  const Model fish = table1_hagfish(400);
   StartSettings settings;
   settings.noise = 0.01;
   const State state = start_state(fish, settings);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
@@ -27,18 +26,15 @@ struct Missed {
 };
 
 Missed missed(double step, int steps) {
-  const Scene scene = stored_scene({"time.step=" + std::to_string(step)}).scene;
-  const Model model = make_hagfish(stored_scene().specimen, scene);
-  const std::vector<StoredState> states = stored_states();
-  Simulation sim = resume(model, scene, *std::ranges::find(states, "slide", &StoredState::name));
-  StepRecord record;
+  SceneRun run = resumed(stored_state("slide"), {"time.step=" + std::to_string(step)});
+  const ObservedState& now = run.sim.now;
   Missed missed;
   for (int k = 0; k < steps; ++k) {
-    take_step(model, scene, sim, record);
-    for (const Contact& c : observe(model, sim.now.state, scene).contact.contacts) {
+    run.step();
+    for (const Contact& c : observe(run.model, now.state, run.scene).contact.contacts) {
       ++missed.minima;
       // Beside another one and clear of touching a minimum may be seen late.
-      if (c.gap < 0 && !holds(sim.now.observation.contact.contacts, c)) ++missed.touching;
+      if (c.gap < 0 && !holds(now.observation.contact.contacts, c)) ++missed.touching;
     }
   }
   return missed;
@@ -82,17 +78,14 @@ TEST(ContactSearch, ListsEveryPairThatMayTouch) {
 
 // Each pair that is skipped, at every step, because it has not moved far.
 TEST(ContactSearch, WhatIsNotDueIsClear) {
-  const Scene scene = stored_scene().scene;
-  const Model model = make_hagfish(stored_scene().specimen, scene);
-  const std::vector<StoredState> states = stored_states();
-  Simulation sim = resume(model, scene, *std::ranges::find(states, "slide", &StoredState::name));
-  StepRecord record;
+  SceneRun run = resumed(stored_state("slide"));
+  const double margin = run.scene.contact.margin;
   int skipped = 0;
   for (int k = 0; k < 40; ++k) {
-    Candidates before = sim.search.candidates;
-    take_step(model, scene, sim, record);
-    const std::vector<SplineSegment>& segments = sim.now.observation.segments;
-    update_candidates(segments, scene.contact, before);
+    Candidates before = run.sim.search.candidates;
+    run.step();
+    const std::vector<SplineSegment>& segments = run.sim.now.observation.segments;
+    update_candidates(segments, run.scene.contact, before);
     std::vector<int> pairs, one_by_one;
     find_pairs_to_evaluate(before, pairs);
     for (int i = 0; i < static_cast<int>(before.pairs.size()); ++i) {
@@ -103,10 +96,9 @@ TEST(ContactSearch, WhatIsNotDueIsClear) {
       if (std::ranges::binary_search(pairs, i)) continue;
       const auto& [a, b] = before.pairs[i];
       // Within the margin only pairs beside a minimum are skipped, until they nearly touch.
-      const bool beside = before.closest[i] && before.closest[i]->gap <= scene.contact.margin;
+      const bool beside = before.closest[i] && before.closest[i]->gap <= margin;
       // To the tolerance of the closest points.
-      ASSERT_GT(closest_points(segments[a], segments[b]).gap,
-                (beside ? 0 : scene.contact.margin) - 1e-9);
+      ASSERT_GT(closest_points(segments[a], segments[b]).gap, (beside ? 0 : margin) - 1e-9);
       ++skipped;
     }
   }

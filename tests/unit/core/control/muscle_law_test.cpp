@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/muscle/activation.hpp"
-#include "tests/support/muscled_hagfish.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish::muscle_law_test {
@@ -16,13 +15,12 @@ Eigen::VectorXd activations_in(const Model& model, const Eigen::VectorXd& memory
   return memory.tail(static_cast<Eigen::Index>(model.muscles.size()));
 }
 
-class MuscleLaw : public testing::Test {
+class MuscleLaw : public testing::Test, protected SceneRun {
  protected:
-  MuscleLaw() {
-    scene.muscle = {true, 0.1};
-    scene.controller.law = "muscles";
-    model = make_hagfish(muscled_specimen(), scene);
-    sim = resume(model, scene, stored_states().at(3));  // the slide
+  MuscleLaw()
+      : SceneRun(resumed(
+            stored_state("slide"),
+            {"muscle.present=true", "muscle.activation_time=0.1", "controller.law=muscles"})) {
     // Contacts are followed, and the paper's control of the same step known.
     Scene paper = scene;
     paper.controller.law = "paper";
@@ -30,9 +28,6 @@ class MuscleLaw : public testing::Test {
     reference = take_step(model, paper, other);
   }
 
-  Scene scene = stored_scene().scene;
-  Model model;
-  Simulation sim = hagfish::start(table1_hagfish(), scene, "active-set");
   StepRecord reference;
 };
 
@@ -43,7 +38,7 @@ TEST_F(MuscleLaw, FollowsWhatThePaperAsksForByItsDynamicsAlone) {
       model, sim.now.observation.kin,
       reference.solution.active_torque + reference.solution.force[RowKind::thigmotaxis], wanted);
   ASSERT_GT(wanted.activation.maxCoeff(), 1e-4);
-  const StepRecord record = take_step(model, scene, sim);
+  step();
   EXPECT_TRUE(record.control.thigmotaxis.empty());
   EXPECT_EQ(record.control.rest_shape.size(), 0);
   EXPECT_TRUE(record.solution.force[RowKind::thigmotaxis].isZero(0));
@@ -56,13 +51,10 @@ TEST_F(MuscleLaw, FollowsWhatThePaperAsksForByItsDynamicsAlone) {
   muscle_torque(model, record.after.observation.kin, first, torque);
   EXPECT_EQ(record.solution.active_torque, torque);
   // Later they stay between 0 and 1, and what they do follows from state and memory.
-  for (int k = 0; k < 20; ++k) take_step(model, scene, sim);
+  for (int k = 0; k < 20; ++k) step();
   Simulation copy = sim;
   copy.solver.warm = {};
-  StepRecord one, two;
-  take_step(model, scene, sim, one);
-  take_step(model, scene, copy, two);
-  EXPECT_EQ(one.control.torque.value, two.control.torque.value);
+  EXPECT_EQ(step().control.torque.value, take_step(model, scene, copy).control.torque.value);
   const Eigen::VectorXd later = activations_in(model, sim.controller.memory);
   EXPECT_GE(later.minCoeff(), 0);
   EXPECT_LE(later.maxCoeff(), 1);
@@ -97,7 +89,7 @@ TEST_F(MuscleLaw, AsksAheadOfItsLagWhileTheKnotForms) {
   const StepRecord asked = take_step(model, own, other);
   MuscleEffort wanted;
   ActivationSolver().solve(model, sim.now.observation.kin, asked.solution.active_torque, wanted);
-  const StepRecord record = take_step(model, scene, sim);
+  step();
   const double gone = 1 - std::exp(-scene.time.step / lag);
   EXPECT_NEAR((activations_in(model, record.controller.memory) - gone * wanted.activation)
                   .lpNorm<Eigen::Infinity>(),
@@ -108,18 +100,17 @@ TEST_F(MuscleLaw, HasNoShapeToFollowWhereAForceScriptTiesTheKnot) {
   ASSERT_EQ(scene.script.kind, ScriptSettings::Kind::force);
   sim = start(model, scene, "active-set");
   for (int k = 0; k < 3; ++k) {
-    const StepRecord record = take_step(model, scene, sim);
-    EXPECT_EQ(record.controller.phase, Phase::form);
+    EXPECT_EQ(step().controller.phase, Phase::form);
     EXPECT_TRUE(activations_in(model, record.controller.memory).isZero(0));
   }
 }
 
 TEST_F(MuscleLaw, ExcitesNothingFromReleaseOn) {
-  for (int k = 0; k < 20; ++k) take_step(model, scene, sim);
+  for (int k = 0; k < 20; ++k) step();
   const Eigen::VectorXd before = activations_in(model, sim.controller.memory);
   ASSERT_GT(before.maxCoeff(), 1e-4);
   sim.controller.phase = Phase::release;
-  take_step(model, scene, sim);
+  step();
   const Eigen::VectorXd after = std::exp(-scene.time.step / 0.1) * before;
   EXPECT_LE((activations_in(model, sim.controller.memory) - after).lpNorm<Eigen::Infinity>(),
             1e-15);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/control/laws.hpp"
-#include "core/run/simulation.hpp"
 #include "tests/support/plain_scene.hpp"
 #include "tests/support/random_chain.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish::reflex_test {
 
@@ -25,11 +25,18 @@ Eigen::Index hinge_count(const Model& model) {
 
 /// An animal in empty space that weighs next to nothing, so that its shape is a matter of its
 /// muscles and its own damping alone; bent about Y by `curvature` (of arc in cm, rad/cm).
-struct Weightless {
+struct Weightless : SceneRun {
   template <class Curvature>
-  Weightless(double shift, double h, TimeRule rule, Curvature curvature) {
-    Specimen specimen = table1_specimen();
-    specimen.mass = 0.01;
+  Weightless(double shift, double h, TimeRule rule, Curvature curvature)
+      : SceneRun(light(), reflexive(shift, h, rule, curvature)) {}
+  static Specimen light() {
+    Specimen animal = table1_specimen();
+    animal.mass = 0.01;
+    return animal;
+  }
+  template <class Curvature>
+  static Scene reflexive(double shift, double h, TimeRule rule, Curvature curvature) {
+    Scene scene = table1_scene();
     scene.clamp_head = false;
     scene.wall.present = false;
     scene.drag = {};
@@ -44,7 +51,7 @@ struct Weightless {
     scene.guard.action = GuardAction::warn;  // there is no knot to be lost
     scene.time.step = h;
     scene.time.rule = rule;
-    const double v = speed(shift), length = specimen.length;
+    const double v = speed(shift), length = light().length;
     constexpr int stations = 200;
     for (int i = 0; i <= stations; ++i) {
       const double share = static_cast<double>(i) / stations, s = share * length, d = 1e-3;
@@ -53,19 +60,14 @@ struct Weightless {
       const double slope = (curvature(s + d) - curvature(s - d)) / (2 * d);
       scene.start.bend_rate.emplace_back(share, 0, v * slope, 0);
     }
-    model = make_hagfish(specimen, scene);
-    sim = start(model, scene, "active-set");
+    return scene;
   }
-  void run(double time) {
-    while (time_of(sim, scene) < time - 0.5 * scene.time.step) take_step(model, scene, sim, record);
+  void run(double until) {
+    while (time() < until - 0.5 * scene.time.step) step();
   }
   static double speed(double shift) { return shift * (Ba + B) / damping; }
 
   static constexpr double Ba = 5e5, B = 2e5, damping = 3e3;  // dyn cm^2 (s)
-  Scene scene = table1_scene();
-  Model model;
-  Simulation sim = hagfish::start(table1_hagfish(), scene, "active-set");
-  StepRecord record;
 };
 
 TEST(CopiedAngle, IsTheCurvatureBehindAndNothingPastTheEnds) {
@@ -114,10 +116,7 @@ TEST(Reflex, AShapeTravelsAtItsSpeedWhateverTheStep) {
 class ReflexSenses : public testing::Test {
  protected:
   /// What is asked for in the step to come.
-  const Control& ask() {
-    take_step(s.model, s.scene, s.sim, s.record);
-    return s.record.control;
-  }
+  const Control& ask() { return s.step().control; }
   Weightless s{0.5, 0.002, TimeRule::euler, [](double arc) { return 0.02 + 0.002 * arc; }};
 };
 

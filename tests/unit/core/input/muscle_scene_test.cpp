@@ -13,8 +13,7 @@ const std::string present = "[muscle]\npresent = true\n";
 
 TEST(MuscleScene, HasTheMusclesOfItsSpecimen) {
   const ResolvedScene scene = read_scene_text(present + plain_scene + muscle, "s");
-  const Model model = make_hagfish(scene.specimen, scene.scene);
-  EXPECT_EQ(model.muscles.size(), 4u * 50 + 2u * 49);
+  EXPECT_EQ(scene.model.muscles.size(), 4u * 50 + 2u * 49);
   EXPECT_TRUE(make_hagfish(scene.specimen, Scene{}).muscles.empty());
 }
 

@@ -37,9 +37,7 @@ TEST(ObstacleScene, TheHeadPlateIsTheFirst) {
   const auto names = [&](const std::string& more) {
     const ResolvedScene read = read_scene_text(pole + more + plain_scene, "s.toml");
     std::vector<std::string> all;
-    for (const Obstacle& one : make_hagfish(read.specimen, read.scene).obstacles) {
-      all.push_back(one.name);
-    }
+    for (const Obstacle& one : read.model.obstacles) all.push_back(one.name);
     return all;
   };
   EXPECT_EQ(names(""), (std::vector<std::string>{"head plate", "obstacle 1"}));

@@ -35,8 +35,6 @@ struct NamedKnot {
   Eigen::Matrix3Xd polygon;
 };
 
-void PrintTo(const NamedKnot& knot, std::ostream* out) { *out << knot.name; }
-
 /// Every knot of a hagfish from two constructions, each with its mirror image.
 std::vector<NamedKnot> named_knots() {
   std::vector<NamedKnot> knots = {

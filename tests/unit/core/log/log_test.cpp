@@ -100,27 +100,6 @@ TEST_F(LogTest, HoldsWhatItsReadersNameInTheirUnits) {
   EXPECT_EQ(h5.shape("/steps/kkt"), std::vector<hsize_t>{12});
 }
 
-TEST_F(LogTest, ReadsBackTheVeryStatesThatWereWritten) {
-  const fs::path file = folder / "run.h5";
-  LogWriter log(file, false, header, model, scene);
-  const std::vector<State> states = write(log, 11);
-  log.finish("complete", sim);
-  const Hdf5Reader h5(file);
-  const Hdf5Reader::Rows q = h5.rows("/trajectory/q");
-  const Hdf5Reader::Rows qdot = h5.rows("/trajectory/qdot");
-  EXPECT_EQ(h5.integers("/trajectory/step"), (std::vector<std::int64_t>{0, 5, 10, 11}));
-  for (const int frame : {0, 1, 2}) {
-    EXPECT_EQ(q.row(frame).transpose(), states[5 * frame].q);
-    EXPECT_EQ(qdot.row(frame).transpose(), states[5 * frame].qdot);
-  }
-  EXPECT_EQ(q.row(3).transpose(), sim.now.state.q);
-  EXPECT_EQ(qdot.row(3).transpose(), sim.now.state.qdot);
-  // The scene in the log makes the run again.
-  const ResolvedScene again = read_scene_text(h5.root_text("scene"), "log");
-  EXPECT_EQ(again.scene.time.step, scene.time.step);
-  EXPECT_EQ(again.specimen.mass, table1_specimen().mass);
-}
-
 TEST_F(LogTest, KeepsWhatWasSavedUnlessFinished) {
   const fs::path file = folder / "run.h5";
   { LogWriter log(file, false, header, model, scene); }
@@ -169,20 +148,29 @@ TEST_F(LogTest, WhatThereIsOfARunStaysUntilItHasComeAsFarAgain) {
   }
 }
 
-TEST_F(LogTest, TheStateAtTheEndIsTheLastFrame) {
+TEST_F(LogTest, ReadsBackTheVeryStatesAndEndsWithTheLastOne) {
   for (const int steps : {23, 25}) {
     const fs::path file = folder / (std::to_string(steps) + ".h5");
     sim = start(model, scene, "ipopt");
     LogWriter log(file, false, header, model, scene);
-    write(log, steps, 0.01);
+    std::vector<State> states = write(log, steps, 0.01);
+    states.push_back(sim.now.state);
     log.finish("failed: interrupted", sim);
     const Hdf5Reader ended(file);
     EXPECT_EQ(ended.integers("/trajectory/step"),
               (std::vector<std::int64_t>{0, 5, 10, 15, 20, steps}));
-    EXPECT_EQ(ended.rows("/trajectory/q").bottomRows(1).transpose(), sim.now.state.q);
+    for (int frame = 0; frame < 6; ++frame) {
+      const State& state = states.at(std::min(5 * frame, steps));
+      EXPECT_EQ(ended.rows("/trajectory/q").row(frame).transpose(), state.q);
+      EXPECT_EQ(ended.rows("/trajectory/qdot").row(frame).transpose(), state.qdot);
+    }
     EXPECT_EQ(ended.doubles("/diagnostics/kinetic_energy").back(), sim.ledger.kinetic);
     EXPECT_TRUE(ended.rows("/forces/head").bottomRows(1).array().isNaN().all());
     EXPECT_TRUE(ended.rows("/mean/forces/head").bottomRows(1).allFinite());
+    // The scene in the log makes the run again.
+    const ResolvedScene again = read_scene_text(ended.root_text("scene"), "log");
+    EXPECT_EQ(again.scene.time.step, scene.time.step);
+    EXPECT_EQ(again.specimen.mass, table1_specimen().mass);
   }
 }
 

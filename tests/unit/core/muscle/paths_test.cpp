@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "tests/support/muscled_hagfish.hpp"
+#include "tests/support/random_chain.hpp"
 
 namespace hagfish::paths_test {
 

@@ -4,31 +4,20 @@
 #include <cmath>
 
 #include "core/chain/start.hpp"
-#include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
 namespace hagfish::simulation_start_test {
 
 /// Ten bodies in open water, pulled at the tail.
-struct Pulled {
-  Pulled() {
+struct Pulled : SceneRun {
+  Pulled() : SceneRun(table1_specimen(), table1_scene(10)) {
     scene.script.kind = ScriptSettings::Kind::force;
     scene.script.waypoints = {{0, {100, 200, 0}}, {1, {100, -200, 50}}};
+    begin();
   }
-  Scene scene = table1_scene(10);
-  Model model = table1_hagfish(10);
+  void begin() { sim = start(model, scene, "active-set"); }
 };
-
-/// Steps that a run of `scene` takes before it is over.
-std::int64_t steps_of(const Model& model, const Scene& scene) {
-  Simulation sim = start(model, scene, "active-set");
-  StepRecord record;
-  while (!finished(sim, scene)) {
-    take_step(model, scene, sim, record);
-  }
-  return sim.step;
-}
 
 TEST(SimulationStart, IsTheScenesStateAtTimeZero) {
   Pulled p;
@@ -36,22 +25,23 @@ TEST(SimulationStart, IsTheScenesStateAtTimeZero) {
   p.scene.start.bend = {{0, 0, 0.05, 0.02}, {1, 0, 0.05, 0.02}};
   p.scene.clamp_head = false;
   p.scene.start.spin = {1, 2, 3};
-  const Simulation sim = start(p.model, p.scene, "active-set");
+  p.begin();
+  const Simulation& sim = p.sim;
   EXPECT_EQ(sim.step, 0);
-  EXPECT_EQ(time_of(sim, p.scene), 0);
-  EXPECT_EQ(sim.controller.phase, Phase::slide);
+  EXPECT_EQ(p.time(), 0);
+  EXPECT_EQ(p.phase(), Phase::slide);
   EXPECT_EQ(sim.controller.phase_start, 0);
   const State state = start_state(p.model, p.scene.start);
   EXPECT_EQ(sim.now.state.q, state.q);
   EXPECT_EQ(sim.now.state.qdot, state.qdot);
   EXPECT_EQ(sim.now.state.qdot.segment<3>(3), Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(sim.now.observation.kin.centre, kinematics(p.model, state).centre);
-  EXPECT_FALSE(finished(sim, p.scene));
+  EXPECT_FALSE(p.over());
 }
 
 TEST(SimulationStart, AnotherSceneHasNoMemoryOrRestShapeOfAnotherLaw) {
-  const Pulled p;
-  Simulation sim = start(p.model, p.scene, "active-set");
+  Pulled p;
+  Simulation& sim = p.sim;
   sim.controller.memory = Eigen::Vector2d(30, 1);
   sim.controller.rest_shape = Eigen::VectorXd::Constant(p.model.nv(), 0.1);
   Scene programmed = p.scene;
@@ -69,20 +59,20 @@ TEST(SimulationStart, AnotherSceneHasNoMemoryOrRestShapeOfAnotherLaw) {
 /// Takes `count` steps of `sim`, each also asked to stop at one call of its back end after the
 /// other: then it must not be taken, or end as without that. How many were not; `corrected` are
 /// those whose path asked for rows.
-int stops_at_every_call(const Model& model, const Scene& scene, int count, Simulation sim,
-                        int& corrected) {
+int stops_at_every_call(SceneRun run, int count, int& corrected) {
   int stopped = 0;
+  const State& now = run.sim.now.state;
   for (int step = 0; step < count; ++step) {
-    const Simulation before = sim;
-    corrected += take_step(model, scene, sim).solution.path_rows.empty() ? 0 : 1;
+    const Simulation before = run.sim;
+    corrected += run.step().solution.path_rows.empty() ? 0 : 1;
     for (int k = 1, calls = k; calls >= k; ++k) {
       Simulation asked = before;
       calls = 0;
       asked.solver.stop_when([&] { return ++calls >= k; });
       try {
-        take_step(model, scene, asked);
-        EXPECT_EQ(asked.now.state.q, sim.now.state.q) << "step " << step << ", call " << k;
-        EXPECT_EQ(asked.now.state.qdot, sim.now.state.qdot) << "step " << step << ", call " << k;
+        take_step(run.model, run.scene, asked);
+        EXPECT_EQ(asked.now.state.q, now.q) << "step " << step << ", call " << k;
+        EXPECT_EQ(asked.now.state.qdot, now.qdot) << "step " << step << ", call " << k;
       } catch (const StepError& error) {
         EXPECT_EQ(error.outcome(), Outcome::stopped);
         ++stopped;
@@ -94,47 +84,36 @@ int stops_at_every_call(const Model& model, const Scene& scene, int count, Simul
 
 TEST(SimulationStart, AStepThatIsAskedToStopIsTheSameOrNotTaken) {
   int corrected = 0;
-  const ResolvedScene resolved = stored_scene({"time.step=0.01"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  for (const StoredState& stored : stored_states()) {
-    if (stored.phase != Phase::slide) continue;
-    const Simulation sim = resume(model, resolved.scene, stored);
-    EXPECT_GT(stops_at_every_call(model, resolved.scene, 150, sim, corrected), 300);
+  for (const char* state : {"slide", "slide late"}) {
+    const SceneRun run = resumed(stored_state(state), {"time.step=0.01"});
+    EXPECT_GT(stops_at_every_call(run, 150, corrected), 300);
   }
   // Strands that meet in open water: only the path asks for a row.
   corrected = 0;
-  const ResolvedScene closing = read_scene(HAGFISH_STRESS_DIR "/closing.toml", {"time.step=0.002"});
-  const Model strands = make_hagfish(closing.specimen, closing.scene);
-  const Simulation sim = start(strands, closing.scene, "active-set");
-  EXPECT_GT(stops_at_every_call(strands, closing.scene, 30, sim, corrected), 0);
+  const SceneRun closing(HAGFISH_STRESS_DIR "/closing.toml", {"time.step=0.002"});
+  EXPECT_GT(stops_at_every_call(closing, 30, corrected), 0);
   EXPECT_GT(corrected, 0);
 }
 
 TEST(SimulationStart, GoesOnFromTheStateOfAnotherRun) {
-  const Pulled p;
-  Simulation sim = start(p.model, p.scene, "active-set");
+  Pulled p;
+  for (int k = 0; k < 20; ++k) p.step();
+  Pulled other;
+  other.sim =
+      start_from(p.model, p.scene, "active-set", p.sim.now.state, p.sim.controller, p.sim.step);
   for (int k = 0; k < 20; ++k) {
-    take_step(p.model, p.scene, sim);
+    p.step();
+    EXPECT_EQ(other.step().time, (20 + k) * p.scene.time.step);
   }
-  Simulation other =
-      start_from(p.model, p.scene, "active-set", sim.now.state, sim.controller, sim.step);
-  for (int k = 0; k < 20; ++k) {
-    take_step(p.model, p.scene, sim);
-    const StepRecord record = take_step(p.model, p.scene, other);
-    EXPECT_EQ(record.time, (20 + k) * p.scene.time.step);
-  }
-  EXPECT_EQ(other.step, 40);
+  EXPECT_EQ(other.sim.step, 40);
   // It has no multipliers to start from: rounding of the solver, some 1e-13, over twenty steps.
-  EXPECT_LE(relative_error(other.now.state.q, sim.now.state.q), 1e-10);
-  EXPECT_LE(relative_error(other.now.state.qdot, sim.now.state.qdot), 1e-10);
+  EXPECT_LE(relative_error(other.sim.now.state.q, p.sim.now.state.q), 1e-10);
+  EXPECT_LE(relative_error(other.sim.now.state.qdot, p.sim.now.state.qdot), 1e-10);
 }
 
 TEST(SimulationStart, GoesOnInThePhaseThatItIsGiven) {
-  const ResolvedScene resolved = stored_scene();
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
   for (const StoredState& stored : stored_states()) {
-    Simulation sim = resume(model, resolved.scene, stored);
-    EXPECT_EQ(take_step(model, resolved.scene, sim).controller.phase, stored.phase);
+    EXPECT_EQ(resumed(stored).step().controller.phase, stored.phase);
   }
 }
 
@@ -145,7 +124,9 @@ TEST(SimulationEnd, IsAtTheStepNearestTheDuration) {
       for (const double off : {-0.4, 0.0, 0.4}) {
         p.scene.time.step = step;
         p.scene.time.duration = (count + off) * step;
-        EXPECT_EQ(steps_of(p.model, p.scene), count) << step << " " << off;
+        p.begin();
+        while (!p.over()) p.step();
+        EXPECT_EQ(p.sim.step, count) << step << " " << off;
       }
     }
   }
@@ -153,14 +134,13 @@ TEST(SimulationEnd, IsAtTheStepNearestTheDuration) {
 
 TEST(SimulationEnd, ComesWithThePhaseAfterTheLastOne) {
   Pulled p;
-  Simulation sim = start(p.model, p.scene, "active-set");
   const std::vector<Phase> order = {Phase::form,    Phase::tighten, Phase::slide,
                                     Phase::reverse, Phase::release, Phase::free};
   for (std::size_t until = 0; until < order.size(); ++until) {
     p.scene.time.until = order[until];
     for (std::size_t now = 0; now < order.size(); ++now) {
-      sim.controller.phase = order[now];
-      EXPECT_EQ(finished(sim, p.scene), now > until) << until << " " << now;
+      p.sim.controller.phase = order[now];
+      EXPECT_EQ(p.over(), now > until) << until << " " << now;
     }
   }
 }
@@ -184,14 +164,13 @@ TEST(SimulationEnd, ComesATimeAfterTheKnotIsGone) {
 TEST(SimulationMisuse, ALawTakesNoStepOfItsOwnSimulation) {
   Pulled p;
   p.scene.controller.law = own_law;
-  Simulation sim = start(p.model, p.scene, "active-set");
   int refused = 0;
-  sim.law = [&](const Situation&, Eigen::VectorXd&, Control&) {
-    EXPECT_THROW(take_step(p.model, p.scene, sim), std::logic_error);
+  p.sim.law = [&](const Situation&, Eigen::VectorXd&, Control&) {
+    EXPECT_THROW(take_step(p.model, p.scene, p.sim), std::logic_error);
     ++refused;
   };
-  for (int k = 0; k < 10; ++k) take_step(p.model, p.scene, sim);
-  EXPECT_EQ(sim.step, 10);
+  for (int k = 0; k < 10; ++k) p.step();
+  EXPECT_EQ(p.sim.step, 10);
   EXPECT_EQ(refused, 10);
 }
 
@@ -205,13 +184,12 @@ TEST(SimulationMisuse, NoBodiesOrAStateOfAnotherLengthIsNoStart) {
 }
 
 TEST(SimulationMisuse, ASimulationOfAnotherAnimalOrMovedFromTakesNoStep) {
-  const Pulled p;
-  Simulation sim = start(p.model, p.scene, "active-set");
+  Pulled p;
   for (const int bodies : {4, 40}) {
-    EXPECT_THROW(take_step(table1_hagfish(bodies), p.scene, sim), std::invalid_argument);
+    EXPECT_THROW(take_step(table1_hagfish(bodies), p.scene, p.sim), std::invalid_argument);
   }
-  Simulation taken = std::move(sim);
-  EXPECT_THROW(take_step(p.model, p.scene, sim), std::invalid_argument);
+  Simulation taken = std::move(p.sim);
+  EXPECT_THROW(p.step(), std::invalid_argument);
   take_step(p.model, p.scene, taken);
   EXPECT_EQ(taken.step, 1);
 }

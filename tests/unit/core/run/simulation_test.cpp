@@ -20,8 +20,6 @@ struct Hindrance {
   std::function<void(Scene&, Model&)> set;
 };
 
-void PrintTo(const Hindrance& hindrance, std::ostream* out) { *out << hindrance.name; }
-
 /// EXPECTs the same motion, controller, ledger and watch. That nothing else differs which the
 /// future of a run depends on, the steps to come show.
 void expect_same(const Simulation& a, const Simulation& b) {
@@ -47,36 +45,25 @@ class StoppedStep : public testing::TestWithParam<Hindrance> {};
 
 TEST_P(StoppedStep, LeavesTheSimulationAsItWas) {
   const Hindrance& hindrance = GetParam();
-  const Scene scene = stored_scene().scene;
-  const Model model = make_hagfish(stored_scene().specimen, scene);
-  const std::vector<StoredState> states = stored_states();
-  const auto found = std::ranges::find(states, hindrance.from, &StoredState::name);
-  ASSERT_NE(found, states.end());
-  Simulation sim = resume(model, scene, *found);
-  StepRecord record;
-  for (int k = 0; k < 5; ++k) {
-    take_step(model, scene, sim, record);
-  }
-  Simulation twin = sim;
-  Scene harder = scene;
-  Model other = model;
-  hindrance.set(harder, other);
+  SceneRun run = resumed(stored_state(hindrance.from));
+  for (int k = 0; k < 5; ++k) run.step();
+  SceneRun twin = run;
+  hindrance.set(run.scene, run.model);
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
-      take_step(other, harder, sim, record);
+      run.step();
       FAIL() << "the step was taken";
     } catch (const StepError& error) {
       EXPECT_EQ(error.outcome(), hindrance.cause) << error.what();
     }
-    EXPECT_EQ(record.controller.phase, twin.controller.phase);
-    expect_same(sim, twin);
+    EXPECT_EQ(run.record.controller.phase, twin.phase());
+    expect_same(run.sim, twin.sim);
   }
-  StepRecord record_of_twin;
+  run.scene = twin.scene;
+  run.model = twin.model;
   for (int k = 0; k < 20; ++k) {
-    take_step(model, scene, sim, record);
-    take_step(model, scene, twin, record_of_twin);
-    ASSERT_EQ(record.solution.lambda, record_of_twin.solution.lambda) << k;
-    expect_same(sim, twin);
+    ASSERT_EQ(run.step().solution.lambda, twin.step().solution.lambda) << k;
+    expect_same(run.sim, twin.sim);
   }
 }
 

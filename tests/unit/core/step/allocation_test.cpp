@@ -2,14 +2,12 @@
 // the project's own code, Eigen included, through the two counters below (tests/CMakeLists.txt).
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <tuple>
 
 #include "core/control/muscle_law.hpp"
-#include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
@@ -35,17 +33,15 @@ void* __wrap__Znwm(std::size_t size) {
 namespace hagfish::allocation_test {
 
 /// Steps a stored state; the controller does not look at the knot, which costs memory of its own.
-class Allocation : public testing::Test {
+class Allocation : public testing::Test, protected SceneRun {
  protected:
-  void start(const std::string& name, BendingLimit limit = BendingLimit::box) {
+  Allocation() : SceneRun(stored_scene()) {}
+  void slide(BendingLimit limit = BendingLimit::box) {
     scene.model.bending_limit = limit;
     scene.controller.contact_patch = 0;  // over a patch each row of Eq. 6 has a list of its own
-    model = make_hagfish(stored_scene().specimen, scene);
+    model = make_hagfish(specimen, scene);
     scene.knot.interval = std::numeric_limits<double>::infinity();
-    const std::vector<StoredState> states = stored_states();
-    const auto found = std::ranges::find(states, name, &StoredState::name);
-    ASSERT_NE(found, states.end());
-    StoredState stored = *found;
+    StoredState stored = stored_state("slide");
     stored.state = within_cones(model, stored.state);
     sim = resume(model, scene, stored);
     sim.controller.knot_seen = 0;
@@ -53,14 +49,9 @@ class Allocation : public testing::Test {
   /// Requests of one step.
   int step() {
     const int before = requests;
-    take_step(model, scene, sim, record);
+    SceneRun::step();
     return requests - before;
   }
-
-  Scene scene = stored_scene().scene;
-  Model model = make_hagfish(stored_scene().specimen, scene);
-  Simulation sim = hagfish::start(model, scene, "active-set");
-  StepRecord record;
 };
 
 TEST_F(Allocation, CountersSeeEigenAndTheStandardLibrary) {
@@ -78,7 +69,7 @@ TEST_F(Allocation, NoneInTheMuscleLawWhereItSolvesAStepAsItDidBefore) {
   scene.muscle = {true, 0.1};
   scene.script.kind = ScriptSettings::Kind::curvature;  // with tone
   scene.active = {500, 0.01, 1, 1e4};
-  start("slide");
+  slide();
   std::optional<MuscleStorage> storage(std::in_place);
   Eigen::VectorXd memory;
   Control control;
@@ -114,7 +105,7 @@ TEST_P(AllocationOfRows, NoneInAStepWithAsManyRowsAsTheLastOne) {
   const auto [limit, law] = GetParam();
   scene.controller.law = law;
   scene.controller.knot_speed = {2, 1, 0.1, 2};
-  start("slide", limit);
+  slide(limit);
   for (int k = 0; k < 300; ++k) step();
   const Simulation middle = sim;
   for (int k = 0; k < 100; ++k) step();

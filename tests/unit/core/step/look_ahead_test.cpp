@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
-#include "core/run/simulation.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/stored_states.hpp"
 
@@ -39,26 +37,18 @@ TEST(LookAhead, ShortStepsAreLookedAtTheirEndAlone) {
 }
 
 /// Steps of the stored knot that slides, ten times as long as the scene's.
-struct LongSteps {
+struct LongSteps : SceneRun {
   explicit LongSteps(const std::vector<std::string>& overrides)
-      : scene(stored_scene(overrides).scene), model(make_hagfish(stored_scene().specimen, scene)) {
-    const std::vector<StoredState> states = stored_states();
-    sim = resume(model, scene, *std::ranges::find(states, "slide", &StoredState::name));
-  }
+      : SceneRun(resumed(stored_state("slide"), overrides)) {}
   /// Deepest overlap at the end of any of so many steps.
   double deepest(int steps) {
     double worst = 0;
     for (int k = 0; k < steps; ++k) {
-      take_step(model, scene, sim, record);
-      corrected += record.solution.rounds > 1 ? 1 : 0;
+      corrected += step().solution.rounds > 1 ? 1 : 0;
       worst = std::max(worst, sim.now.observation.penetration);
     }
     return worst;
   }
-  Scene scene;
-  Model model;
-  Simulation sim = start(model, scene, "active-set");
-  StepRecord record;
   int corrected = 0;
 };
 
@@ -94,52 +84,51 @@ TEST(LookAhead, LeavesViolatedRowsAsRedMaxHasThem) {
 }
 
 /// A hairpin whose arms close at `speed` (cm/s) at their ends, 15 degrees apart.
-class ClosingArms : public testing::TestWithParam<double> {
- protected:
-  ClosingArms() {
-    scene = table1_scene(50);
-    scene.clamp_head = false;
-    scene.wall.present = false;
-    scene.drag = {};
-    scene.time.step = 0.005;
-    scene.guard.speed = 1e6;
-    model = make_hagfish(table1_specimen(), scene);
-    State state = rest_state(model);
-    constexpr double arms = 20;  // cm
-    int bends = 0;
-    for (std::size_t k = 0; k < model.hinges.size(); ++k) {
-      const Hinge& hinge = model.hinges[k];
-      if (hinge.axis == Axis::y && hinge.body >= 23 && bends < 3) {
-        const auto i = static_cast<Eigen::Index>(k) + root_dofs;
-        state.q[i + 1] = 55 * degree;
-        state.qdot[i] = GetParam() / arms / 3;
-        ++bends;
-      }
+SceneRun closing_arms(double speed) {
+  Scene scene = table1_scene(50);
+  scene.clamp_head = false;
+  scene.wall.present = false;
+  scene.drag = {};
+  scene.time.step = 0.005;
+  scene.guard.speed = 1e6;
+  SceneRun run(table1_specimen(), scene);
+  State state = rest_state(run.model);
+  constexpr double arms = 20, degree = 0.017453292519943295;  // cm, rad
+  int bends = 0;
+  for (std::size_t k = 0; k < run.model.hinges.size(); ++k) {
+    const Hinge& hinge = run.model.hinges[k];
+    if (hinge.axis == Axis::y && hinge.body >= 23 && bends < 3) {
+      const auto i = static_cast<Eigen::Index>(k) + root_dofs;
+      state.q[i + 1] = 55 * degree;
+      state.qdot[i] = speed / arms / 3;
+      ++bends;
     }
-    sim.emplace(start_from(model, scene, "active-set", state, {}, 0));
   }
-  static constexpr double degree = 0.017453292519943295;
-  Scene scene;
-  Model model;
-  std::optional<Simulation> sim;
-};
+  run.sim = start_from(run.model, scene, "active-set", state, {}, 0);
+  return run;
+}
+
+class ClosingArms : public testing::TestWithParam<double> {};
 
 TEST_P(ClosingArms, NeverPassThroughEachOther) {
-  StepRecord record;
+  SceneRun run = closing_arms(GetParam());
+  const Scene& scene = run.scene;
+  const Model& model = run.model;
   double deepest = 0, deepest_end = 0;
   int held = 0;
   bool shortened = false;
   for (int k = 0; k < 200; ++k) {
-    take_step(model, scene, *sim, record);
-    deepest = std::max(deepest, deepest_on_way(model, scene, record, sim->now.state, 100));
-    deepest_end = std::max(deepest_end, sim->now.observation.penetration);
+    const StepRecord& record = run.step();
+    const auto& [state, seen] = run.sim.now;
+    deepest = std::max(deepest, deepest_on_way(model, scene, record, state, 100));
+    deepest_end = std::max(deepest_end, seen.penetration);
     held += record.solution.force[RowKind::contact].isZero() ? 0 : 1;
     // Closes to rounding, steps that end early included.
-    EXPECT_LT(std::abs(sim->ledger.imbalance()), 1e-9 * sim->ledger.initial) << "step " << k;
+    EXPECT_LT(std::abs(run.sim.ledger.imbalance()), 1e-9 * run.sim.ledger.initial) << "step " << k;
     shortened = shortened || record.left_out > 0;
     const double travelled = scene.time.step - record.left_out;
     // Of the whole as one rigid body momentum decides (core/run/momentum.hpp).
-    EXPECT_LE((advance(record.after.state.q, record.solution.qdot, travelled) - sim->now.state.q)
+    EXPECT_LE((advance(record.after.state.q, record.solution.qdot, travelled) - state.q)
                   .tail(model.nv() - root_dofs)
                   .lpNorm<Eigen::Infinity>(),
               1e-12);

@@ -8,11 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/input/files/scene_reader.hpp"
-#include "core/run/simulation.hpp"
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
+#include "tests/support/scene_run.hpp"
 #include "tests/support/step_stage.hpp"
 
 namespace hagfish::midpoint_test {
@@ -37,24 +36,11 @@ struct MidpointStage {
 };
 
 /// A run of a stress scene by the midpoint rule with steps of `h` (s), whose watch only warns.
-struct StressRun {
-  StressRun(const std::string& name, double h, std::vector<std::string> set = {})
-      : resolved(read_scene(HAGFISH_STRESS_DIR "/" + name + ".toml", with_rule(h, std::move(set)))),
-        model(make_hagfish(resolved.specimen, resolved.scene)),
-        sim(start(model, resolved.scene, "active-set")) {}
-  static std::vector<std::string> with_rule(double h, std::vector<std::string> set) {
-    set.insert(set.end(), {"time.rule=midpoint", "time.step=" + std::to_string(h),
-                           "guard.energy_action=warn"});
-    return set;
-  }
-  void step() { take_step(model, resolved.scene, sim, record); }
-  double time() const { return time_of(sim, resolved.scene); }
-
-  ResolvedScene resolved;
-  Model model;
-  Simulation sim;
-  StepRecord record;
-};
+SceneRun stress_run(const std::string& name, double h, std::vector<std::string> set = {}) {
+  set.insert(set.end(),
+             {"time.rule=midpoint", "time.step=" + std::to_string(h), "guard.energy_action=warn"});
+  return SceneRun(HAGFISH_STRESS_DIR "/" + name + ".toml", set);
+}
 
 // M (v' - v) = h f + C'λ with f at the mean of both velocities, and what the step moves by: that
 // mean and half of what impacts add, from the dense matrices of the paper's Eq. 1.
@@ -161,9 +147,9 @@ TEST(Midpoint, AnImpactDoesNotBounce) {
 // passes leave.
 TEST(Midpoint, ConservesEnergy) {
   for (const double h : {0.004, 0.005}) {
-    StressRun run("spinning", h,
-                  {"drag.normal=0", "drag.tangential=0", "time.ring_damping=0",
-                   "time.settled=1e-10", "time.passes=100"});
+    SceneRun run = stress_run("spinning", h,
+                              {"drag.normal=0", "drag.tangential=0", "time.ring_damping=0",
+                               "time.settled=1e-10", "time.passes=100"});
     const auto energy = [&] {
       return kinetic_energy(run.model, run.sim.now.observation.kin) +
              elastic_energy(run.model, run.sim.now.state.q);
@@ -182,7 +168,7 @@ TEST(Midpoint, ConservesEnergy) {
 // J moves along one velocity and multiplies another: with one for both, this whip doubles its
 // energy within 10 s, and by Euler's rule it blows up after 2.2 s.
 TEST(Midpoint, HoldsTheWhip) {
-  StressRun run("whip", 0.002);
+  SceneRun run = stress_run("whip", 0.002);
   const auto& ledger = run.sim.ledger;
   double furthest = 0;
   while (run.time() < 5) {
@@ -201,17 +187,16 @@ struct Settling {
   double passes = 0, all_passes = 0;
 };
 Settling settling_of(const std::string& name, double duration) {
-  StressRun run(name, 0.002);
-  const double tolerance = run.resolved.scene.time.settled;
-  Scene patient = run.resolved.scene;
+  SceneRun run = stress_run(name, 0.002);
+  const double tolerance = run.scene.time.settled;
+  Scene patient = run.scene;
   patient.time.settled = 1e-9;
   StepRecord settled;
   Settling seen;
   while (run.time() < duration) {
     Simulation twin = run.sim;
     take_step(run.model, patient, twin, settled);
-    run.step();
-    const StepSolution& step = run.record.solution;
+    const StepSolution& step = run.step().solution;
     const double off = (step.qdot - settled.solution.qdot).lpNorm<Eigen::Infinity>();
     seen.worst = std::max(seen.worst, off / tolerance);
     seen.passes += step.middle.passes;
@@ -233,14 +218,13 @@ TEST(Midpoint, KnowsWhatFurtherPassesWouldChange) {
 
 // Rows that the path of a step shows move its middle: it is found anew.
 TEST(Midpoint, SettlesWithTheRowsOfItsPath) {
-  StressRun run("pulled_knot", 0.01);
+  SceneRun run = stress_run("pulled_knot", 0.01);
   int with_path_rows = 0;
   for (int i = 0; i < 30; ++i) {
-    run.step();
-    const StepSolution& step = run.record.solution;
+    const StepSolution& step = run.step().solution;
     with_path_rows += step.path_rows.empty() ? 0 : 1;
     const double off = (step.qdot - step.middle.step_velocity).lpNorm<Eigen::Infinity>();
-    EXPECT_LE(std::min(1.0, step.middle.remaining) * off, run.resolved.scene.time.settled) << i;
+    EXPECT_LE(std::min(1.0, step.middle.remaining) * off, run.scene.time.settled) << i;
     EXPECT_EQ(step.middle.unsettled, 0) << i;
   }
   EXPECT_GE(with_path_rows, 10);

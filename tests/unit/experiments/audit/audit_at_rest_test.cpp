@@ -33,7 +33,7 @@ class AuditAtRest : public testing::TestWithParam<const char*> {
     set.insert(set.end(), more.begin(), more.end());
     const TemporaryFolder folder;
     const std::filesystem::path file = folder / "log.h5";
-    write_log(file, read_scene(HAGFISH_DATA_DIR "/table1.toml", set));
+    write_log(file, scene_argument("table1", set));
     EXPECT_EQ(audit_objections(file), "");
     EXPECT_EQ(LogContents(file.string()).h5.root_text("warnings"), "");
   }
@@ -58,8 +58,8 @@ TEST_P(AuditAtRest, InFreeFall) {
 
 TEST_P(AuditAtRest, AsItDrifts) {
   std::string zeros;
-  const ResolvedScene scene = read_scene(HAGFISH_DATA_DIR "/table1.toml", {"model.bodies=20"});
-  for (int k = 3; k < make_hagfish(scene.specimen, scene.scene).nv(); ++k) zeros += ", 0";
+  const int nv = scene_argument("table1", {"model.bodies=20"}).model.nv();
+  for (int k = 3; k < nv; ++k) zeros += ", 0";
   expect_sound({"drag.normal=0", "drag.tangential=0",
                 "start.bend=[[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.1]]", "start.phase=free",
                 "start.qdot=[80, 0, 0" + zeros + "]"});

@@ -2,14 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/written_log.hpp"
 
 namespace hagfish::audit_pull_test {
-
-namespace fs = std::filesystem;
 
 /// Pulls for 2 s.
 ResolvedScene pulling_scene(std::vector<std::string> set = {}) {
@@ -19,33 +16,20 @@ ResolvedScene pulling_scene(std::vector<std::string> set = {}) {
                                         "expect.pull_drift=1",    "expect.pull_settled=0.5",
                                         "expect.pull_balance=0.2"};
   set.insert(set.begin(), all.begin(), all.end());
-  return read_scene(std::string(HAGFISH_DATA_DIR) + "/pull_overhand.toml", set);
+  return scene_argument("pull_overhand", set);
 }
-/// The cap rises in the first second.
-const std::vector<std::string> rising = {"food.cap.from=4000", "food.cap.time=1"};
 
-class AuditPull : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder = std::make_unique<TemporaryFolder>();
-    write_log(file = *folder / "log.h5", pulling_scene());
-    write_log(rising_file = *folder / "rising.h5", pulling_scene(rising));
-  }
-  static void TearDownTestSuite() { folder.reset(); }
+TEST(AuditPull, ClosesWhereTheCapRises) {
+  const TemporaryFolder folder;
+  write_log(folder / "log.h5", pulling_scene({"food.cap.from=4000", "food.cap.time=1"}));
+  EXPECT_EQ(audit_objections(folder / "log.h5"), "");
+}
 
-  static std::unique_ptr<TemporaryFolder> folder;
-  static fs::path file, rising_file;
-};
-
-std::unique_ptr<TemporaryFolder> AuditPull::folder;
-fs::path AuditPull::file, AuditPull::rising_file;
-
-TEST_F(AuditPull, GoodLogsAreGood) {
+TEST(AuditPull, SeesFoodAndBoundsThatAreNotTheScenes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "log.h5";
+  write_log(file, pulling_scene());
   EXPECT_EQ(audit_objections(file), "");
-  EXPECT_EQ(audit_objections(rising_file), "");
-}
-
-TEST_F(AuditPull, SeesFoodAndBoundsThatAreNotTheScenes) {
   const std::pair<const char*, const char*> changes[] = {
       {"food.strength=0.01", "food: "},
       {"food.hold=5", "food: "},

@@ -26,11 +26,11 @@ class AuditTest : public testing::Test {
     std::vector<std::string> overrides = {"time.frame_interval=0.01", "expect.hand=right",
                                           "expect.types=[['3_1', 13, 14]]"};
     overrides.insert(overrides.end(), more.begin(), more.end());
-    const ResolvedScene resolved = stored_scene(overrides);
-    const Model model = make_hagfish(resolved.specimen, resolved.scene);
-    StoredState stored = stored_states().at(3);  // the slide
-    stored.state = within_cones(model, stored.state);
-    write_log(file, resolved, model, resume(model, resolved.scene, stored, "ipopt"), 30);
+    SceneRun run(stored_scene(overrides));
+    StoredState stored = stored_state("slide");
+    stored.state = within_cones(run.model, stored.state);
+    run.sim = resume(run.model, run.scene, stored, "ipopt");
+    write_log(file, run, 30);
   }
 
   bool passes(const std::string& name) const {
@@ -130,7 +130,7 @@ TEST_F(AuditTest, SeesAMultiplierThatPulls) {
 
 TEST_F(AuditTest, SeesAForceBehindTheKnot) {
   const int last = static_cast<int>(Hdf5Reader(file).doubles("/thigmotaxis/spline_b")[1]) + 2;
-  const Body next = make_hagfish(stored_scene().specimen, stored_scene().scene).bodies[last + 1];
+  const Body next = stored_scene().model.bodies[last + 1];
   tamper("/forces/thigmotaxis", next.first_dof, 1e-12);
   EXPECT_FALSE(passes("f_thigmo past the knot"));
   tamper("/forces/thigmotaxis", next.first_dof, -1e-12);
@@ -141,10 +141,8 @@ TEST_F(AuditTest, SeesAForceBehindTheKnot) {
 // of the spline; the patch of contact then begins further out.
 TEST(LastLoaded, IsTheLastBodyThatRowsLoad) {
   for (const char* patch : {"controller.contact_patch=0", "controller.contact_patch=1"}) {
-    const ResolvedScene resolved = stored_scene({patch});
-    const Scene& scene = resolved.scene;
-    const Model model = make_hagfish(resolved.specimen, scene);
-    const Observation seen = observe(model, stored_states().at(3).state, scene);
+    const auto [scene, specimen, model] = stored_scene({patch});
+    const Observation seen = observe(model, stored_state("slide").state, scene);
     int further = 0;
     for (const int moved_on : {0, 1}) {
       for (const KnotEnd end : {KnotEnd::first, KnotEnd::last, KnotEnd::neither}) {
@@ -195,8 +193,7 @@ TEST_F(AuditTest, SeesAKnotThatCameUndone) {
 TEST_F(AuditTest, SeesTheMirrorImageOfTheKnotExpected) {
   // y to -y, of one frame: root y, turns about x and z.
   const Hdf5Reader::Rows q = Hdf5Reader(file).rows("/trajectory/q");
-  const ResolvedScene resolved = stored_scene();
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
+  const Model model = stored_scene().model;
   const auto reflect = [&](Eigen::Index k) { tamper("/trajectory/q", k, -2 * q(0, k)); };
   for (const Eigen::Index k : {1, 4, 6}) {
     reflect(k);

@@ -13,14 +13,11 @@ class StepQp : public testing::TestWithParam<StoredState> {};
 
 TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   // Long steps, with more rows in reach.
-  const ResolvedScene resolved = stored_scene({"time.step=0.005"});
-  const Model model = make_hagfish(resolved.specimen, resolved.scene);
-  Simulation sim = resume(model, resolved.scene, GetParam());
-  for (int k = 0; k < 2; ++k) {  // limits are prescribed once two steps have seen them
-    take_step(model, resolved.scene, sim);
-  }
-  const WarmStart warm = sim.solver.warm;
-  const StepRecord record = take_step(model, resolved.scene, sim);
+  SceneRun run = resumed(GetParam(), {"time.step=0.005"});
+  const Model& model = run.model;
+  for (int k = 0; k < 2; ++k) run.step();  // limits are prescribed once two steps have seen them
+  const WarmStart warm = run.sim.solver.warm;
+  const StepRecord& record = run.step();
   const StepSolution& step = record.solution;
   const std::vector<Row>& rows = step.rows;
   ASSERT_TRUE(has_qp(step));
@@ -33,7 +30,7 @@ TEST_P(StepQp, BothFormsHaveTheStepsOwnSolution) {
   // The residual of the rows not prescribed is as large as that of the whole problem.
   EXPECT_LE(step.kkt.worst(),
             3 * kkt_residuals(box, step.lambda, step.excess, row_scale(box.A)).worst() + 1e-15);
-  const PrimalQp primal = to_primal(model, resolved.scene, record);
+  const PrimalQp primal = to_primal(model, run.scene, record);
   EXPECT_EQ(primal.e.size(), record.control.clamp_head ? 6 : 0);
   const BoxQp dual = dual_of(primal);
   // Bilateral rows come first, so that the order is the same. A condition of H of 1.4e6 and as much

@@ -12,18 +12,17 @@
 namespace hagfish::thigmotaxis_rows_test {
 
 /// A step of the stored slide, whose knot's first and last contact are commanded differently.
-class ThigmotaxisRowsTest : public testing::Test {
+class ThigmotaxisRowsTest : public testing::Test, protected SceneRun {
  protected:
-  ResolvedScene resolved = stored_scene({"controller.slide_head.a=0.5", "controller.slide_head.b=1",
-                                         "controller.slide_tail.a=3", "controller.slide_tail.b=4",
-                                         "controller.contact_patch=0"});
-  const Scene& scene = resolved.scene;
-  Model model = make_hagfish(resolved.specimen, scene);
-  Simulation sim = resume(model, scene, stored_states().at(3));
+  ThigmotaxisRowsTest()
+      : SceneRun(resumed(stored_state("slide"),
+                         {"controller.slide_head.a=0.5", "controller.slide_head.b=1",
+                          "controller.slide_tail.a=3", "controller.slide_tail.b=4",
+                          "controller.contact_patch=0"})) {}
 };
 
 TEST_F(ThigmotaxisRowsTest, ColumnsAreThoseOfTheirContact) {
-  const StepRecord record = take_step(model, scene, sim);
+  step();
   const ThigmotaxisRows rows =
       thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
   ASSERT_EQ(record.control.thigmotaxis.size(), 2u);
@@ -57,7 +56,7 @@ TEST_F(ThigmotaxisRowsTest, ColumnsAreThoseOfTheirContact) {
 }
 
 TEST_F(ThigmotaxisRowsTest, TheCapIsThatOfTheCommand) {
-  StepRecord record = take_step(model, scene, sim);
+  step();
   for (ThigmotaxisCommand& command : record.control.thigmotaxis) {
     command.effort = 0.25;
     command.speed = {100, 100};  // more than there is force for
@@ -73,7 +72,7 @@ TEST_F(ThigmotaxisRowsTest, TheCapIsThatOfTheCommand) {
 }
 
 TEST_F(ThigmotaxisRowsTest, RowsAtOtherContactsLeaveThoseOfTheEndsInTheirColumns) {
-  StepRecord record = take_step(model, scene, sim);
+  step();
   const ObservedState& now = record.after;
   Control& control = record.control;
   const std::vector<ThigmotaxisCommand> ends = control.thigmotaxis;
@@ -135,7 +134,7 @@ TEST_F(ThigmotaxisRowsTest, MeansAreThoseOfTheSteps) {
   double sum = 0;
   std::array<double, 4> lambda{}, speed{};
   for (int i = 0; i < steps; ++i) {
-    const StepRecord record = take_step(model, scene, sim);
+    step();
     const ThigmotaxisRows rows =
         thigmotaxis_rows_of(record.control, record.solution, scene.time.step);
     means.take(record, rows);

@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <set>
 
 #include "core/chain/start.hpp"
-#include "core/run/simulation.hpp"
 #include "core/step/look_ahead.hpp"
 #include "core/step/paper_step.hpp"
 #include "tests/support/random_chain.hpp"
 #include "tests/support/row_lists.hpp"
+#include "tests/support/scene_run.hpp"
 
 namespace hagfish::cone_test {
 
@@ -111,9 +110,11 @@ TEST(Cones, AreWhatObserveAndTheWatchMeasure) {
 }
 
 /// A body whose tail is pulled around in a circle, so that joints go around along their cones.
-struct Swung {
-  explicit Swung(double h, int corrections = 8) {
-    scene = table1_scene(30);
+struct Swung : SceneRun {
+  explicit Swung(double h, int corrections = 8)
+      : SceneRun(table1_specimen(), swinging(h, corrections)) {}
+  static Scene swinging(double h, int corrections) {
+    Scene scene = table1_scene(30);
     scene.time.step = h;
     scene.wall.present = false;
     scene.contact.least_arc = INFINITY;
@@ -126,13 +127,12 @@ struct Swung {
       scene.script.waypoints.push_back(
           {0.1 * k, {-500, 3000 * std::cos(turn), 3000 * std::sin(turn)}, {0, 0, 0}});
     }
-    model = make_hagfish(table1_specimen(), scene);
-    sim.emplace(start(model, scene, "active-set"));
+    return scene;
   }
   /// One step, whose rows differ by their ids; counts cones that push and rows of one cone.
   void step() {
-    take_step(model, scene, *sim, record);
-    worst = std::max(worst, sim->now.observation.limit_violation);
+    SceneRun::step();
+    worst = std::max(worst, sim.now.observation.limit_violation);
     std::set<RowId> ids;
     for (const Row& row : record.solution.rows) {
       EXPECT_TRUE(ids.insert(row.id).second) << row_name(model, row);
@@ -146,13 +146,9 @@ struct Swung {
       pushing += record.solution.force[RowKind::limit].segment<2>(cone.dof).isZero(0) ? 0 : 1;
     }
   }
-  void run(double time) {
-    while (time_of(*sim, scene) < time - 0.5 * scene.time.step) step();
+  void run(double until) {
+    while (time() < until - 0.5 * scene.time.step) step();
   }
-  Scene scene;
-  Model model;
-  std::optional<Simulation> sim;
-  StepRecord record;
   double worst = 0;
   int pushing = 0, most_rows = 0;
 };
@@ -181,8 +177,8 @@ TEST(Cones, StepsMeetTheDenseEquation4ByEitherSolver) {
   int cut = 0;
   for (int k = 0; k < 20; ++k) {
     Swung again = swung;
-    again.sim->solver = StepSolver("ipopt");
-    again.sim->solver.warm = swung.sim->solver.warm;
+    again.sim.solver = StepSolver("ipopt");
+    again.sim.solver.warm = swung.sim.solver.warm;
     swung.step();
     again.step();
     cut += swung.most_rows > 1 ? 1 : 0;
@@ -219,18 +215,18 @@ TEST(Cones, PassThroughTheMiddleWithinAStep) {
   scene.contact.least_arc = INFINITY;
   scene.time.step = 0.005;
   scene.guard.energy_action = EnergyAction::warn;
-  const Model model = make_hagfish(table1_specimen(), scene);
-  const double limit = model.cones[0].limit;
+  SceneRun run(table1_specimen(), scene);
+  const double limit = run.model.cones[0].limit;
   for (const double offset : {0.0, -0.1 * limit}) {
-    State state = rest_state(model);
+    State state = rest_state(run.model);
     state.q[7] = offset;
     state.qdot.tail<2>() << 40 * limit / scene.time.step, 20 * limit / scene.time.step;
-    Simulation sim = start_from(model, scene, "active-set", state, {}, 0);
-    StepRecord record;
-    take_step(model, scene, sim, record);
-    EXPECT_NEAR(total_bend(sim.now.state.q[7], sim.now.state.q[8]).angle, limit, bend_tolerance);
-    EXPECT_GT(sim.now.state.q[7], 0);
-    EXPECT_GT(sim.now.state.q[8], 0);
+    run.sim = start_from(run.model, scene, "active-set", state, {}, 0);
+    run.step();
+    const Eigen::VectorXd& q = run.sim.now.state.q;
+    EXPECT_NEAR(total_bend(q[7], q[8]).angle, limit, bend_tolerance);
+    EXPECT_GT(q[7], 0);
+    EXPECT_GT(q[8], 0);
   }
 }
 
