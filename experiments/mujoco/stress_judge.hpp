@@ -27,7 +27,8 @@ struct EnergyState {
 };
 
 /// Watches a run step by step, whoever takes the steps, and judges it by the scene's [expect]:
-/// penetration, limits, energy gain, knot, KKT residual and Eq. 6 (experiments/judge/expectations.hpp).
+/// penetration, limits, energy gain, knot, KKT residual and Eq. 6
+/// (experiments/judge/expectations.hpp).
 class StressJudge {
  public:
   /// The model and the scene are referred to. `energy` is that of the start.
