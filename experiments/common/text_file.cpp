@@ -3,16 +3,20 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <iterator>
+
+#include "core/input/files/text_file.hpp"
 
 namespace hagfish {
 
 std::string text_of(const std::filesystem::path& file) {
+  if (const std::string why = unreadable(file); !why.empty()) {
+    throw FileError(file.string() + ": " + why);
+  }
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();  // fails where there is nothing to read
-  if (!stream || text.bad()) throw FileError(file.string() + ": cannot be read");
-  return text.str();
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw FileError(file.string() + ": cannot be read");
+  return text;
 }
 
 void TextFile::write(const std::string& text) {

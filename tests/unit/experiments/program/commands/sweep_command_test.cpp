@@ -84,6 +84,10 @@ TEST_F(SweepTest, RefusesBadInputInOneLine) {
   expect_refused("sweep grid.toml --out grid.toml", {"grid.toml", "cannot be created"});
   expect_refused("sweep grid.toml --out o --threads 0", {"--threads"});
   EXPECT_FALSE(fs::exists(folder / "o"));
+  fs::create_directories(folder / "a/sweep.toml");
+  expect_refused("sweep grid.toml --out a", {"a/sweep.toml: is a directory"});
+  fs::create_directories(folder / "b/table.csv");
+  expect_refused("sweep grid.toml --out b", {"b/table.csv: is not a regular file"});
 }
 
 TEST_F(SweepTest, AFailedRunIsARowAndOnlyItsLogIsKept) {
