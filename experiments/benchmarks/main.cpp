@@ -1,4 +1,4 @@
-// What each part of a step costs, with MuJoCo's part beside it in the same process.
+// What a step costs, with MuJoCo's beside it in the same process; here its contact and its QP, too.
 //   hagfish_benchmarks [--benchmark_...] LOG...
 // Each log gives an animal and knotted states of it (start.hpp). Names are SIMULATOR/PART/BODIES.
 #include <benchmark/benchmark.h>
@@ -8,7 +8,6 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <span>
 #include <utility>
 
 #include "core/log/build_info.hpp"

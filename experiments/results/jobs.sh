@@ -5,7 +5,6 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 cores=$(cores)
 export runs=$out/runs
-
 mkdir -p "$runs"
 
 # timed NAME REPEATS ARGUMENT...: a command of hagfish that makes the log NAME.h5, and NAME.cpu: user and system time of each repeat, s. A

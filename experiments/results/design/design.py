@@ -151,12 +151,13 @@ def beside_table(rows: list[Row]) -> Cells:
     """The programs of data/ as the pages `living` and `sure` have them, and the found ones of the same knots."""
     living = tables.read_table(LIVING)
     stated = lambda what, knot: next(row for row in living.rows if row[0].startswith(what))[living.head.index(knot)]
-    sure = {row[0].removesuffix(": largest torque of muscles, dyn cm"): row[1] for row in tables.read_table(SURE).rows}
+    sure = tables.read_table(SURE)
+    torque = {row[0]: row[sure.head.index("as it is")] for row in sure.rows}
     found = {row["knot_wanted"]: row for row in one_of_each([row for row in rows if not row["animal"]])}
     scenes, lines = {knot: scene for scene, knot in plots.SCENES.items()}, []
     for knot in living.head[1:]:
-        lines.append([knot, "of data/", stated("of 10 other animals", knot).split(";")[1].strip(), number(sure[f"living_{scenes[knot]}"], 2),
-                      stated("clamped: way", knot).split(";")[0]])
+        lines.append([knot, "of data/", stated("of 10 other animals", knot).split(";")[1].strip(),
+                      number(torque[f"living_{scenes[knot]}: largest torque of muscles, dyn cm"], 2), stated("clamped: way", knot).split(";")[0]])
         if knot in found:
             lines.append([knot, "found", found[knot]["unseen_by_eq6"] or "-",
                           number(found[knot]["largest_active_dyn_cm"], 2), number(found[knot]["slide_distance_cm"], 2)])

@@ -285,6 +285,11 @@ def test_morays_tie_knots_in_the_order_of_the_body_that_they_take():
     assert said.startswith("the same order") and len(bodies) == 4 and bodies == sorted(bodies)
 
 
+def test_muscles_are_too_weak_for_most_frames_of_each_pull():
+    frames = next(row for row in read_table(RESULTS / "muscles/muscles.csv").rows if row[0] == "pulling: frames in which a muscle is too weak, %")
+    assert len(frames) == 5 and all(float(share) > 50 for share in frames[1:])
+
+
 def test_errors_while_tying(tmp_path):
     """Of made-up motions whose errors are of first order in the step and of second in the length of a body."""
     rows = []
